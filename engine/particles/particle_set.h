@@ -1,0 +1,45 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include <glm/glm.hpp>
+
+#include "shared/particle_state.h"
+
+namespace meltpoint {
+
+/// The particles on the host, one array an attribute: the one form that the CPU reference, exports and checkpoints share.
+/// SI units. All arrays have the same length. In a set that comes from the device or from sampling, particle i has id i.
+struct ParticleSet {
+    std::vector<std::uint32_t> id;
+    std::vector<std::uint32_t> attributes; ///< shared::pack_attributes(state, material) and flags
+    std::vector<glm::vec3> position;       ///< m
+    std::vector<glm::vec3> velocity;       ///< m/s
+    std::vector<glm::vec3> acceleration;   ///< m/s^2, of the last force evaluation
+    std::vector<float> mass;               ///< kg
+    std::vector<float> density;            ///< kg/m^3, boundary contributions included
+    std::vector<float> pressure;           ///< Pa
+
+    [[nodiscard]] std::size_t size() const { return position.size(); }
+
+    /// New particles are zero; ids continue with the index.
+    void resize(std::size_t count)
+    {
+        const std::size_t old_count = id.size();
+        id.resize(count);
+        for (std::size_t i = old_count; i < count; ++i) {
+            id[i] = static_cast<std::uint32_t>(i);
+        }
+        attributes.resize(count, shared::pack_attributes(shared::STATE_FLUID, 0));
+        position.resize(count, glm::vec3(0.0f));
+        velocity.resize(count, glm::vec3(0.0f));
+        acceleration.resize(count, glm::vec3(0.0f));
+        mass.resize(count, 0.0f);
+        density.resize(count, 0.0f);
+        pressure.resize(count, 0.0f);
+    }
+};
+
+} // namespace meltpoint

@@ -1,0 +1,37 @@
+// What a particle is, and what the simulation has noticed about it.
+#ifndef MELTPOINT_SHARED_PARTICLE_STATE_H
+#define MELTPOINT_SHARED_PARTICLE_STATE_H
+#include "prelude.h"
+
+SHARED_BEGIN
+
+SHARED_CONSTANT uint STATE_SOLID = 0u;
+SHARED_CONSTANT uint STATE_FLUID = 1u;
+SHARED_CONSTANT uint STATE_DUST = 2u;
+SHARED_CONSTANT uint STATE_COLLIDER = 3u;
+SHARED_CONSTANT uint STATE_DEAD = 4u;
+
+// A particle's attributes in one word: state in bits 0..7, material in bits 8..15, flags above.
+SHARED_CONSTANT uint MATERIAL_SHIFT = 8u;
+SHARED_CONSTANT uint FLAG_LEFT_DOMAIN = 0x10000u; // was outside the domain at least once; never cleared
+
+SHARED_FUNCTION uint particle_state(uint attributes) { return attributes & 0xffu; }
+SHARED_FUNCTION uint particle_material(uint attributes) { return (attributes >> MATERIAL_SHIFT) & 0xffu; }
+SHARED_FUNCTION uint pack_attributes(uint state, uint material) { return state | (material << MATERIAL_SHIFT); }
+
+// Why the simulation stopped, in Status::fault.
+SHARED_CONSTANT uint FAULT_NONE = 0u;
+SHARED_CONSTANT uint FAULT_NOT_FINITE = 1u; // a position or velocity is NaN or infinite
+SHARED_CONSTANT uint FAULT_ESCAPED = 2u;    // a particle left the domain
+SHARED_CONSTANT uint FAULT_TOO_FAST = 3u;   // a particle moves farther in a step than the CFL bound allows
+
+// Written by the GPU, read by the host after the fence. Of the first faulty step, the faulty particle of smallest id.
+struct Status {
+    uint fault;      // one of FAULT_*
+    uint step;       // index of the step in which it happened
+    uint particle;   // particle id
+    uint coincident; // ordered pairs closer than COINCIDENT_RATIO support radii, whose gradient was taken as zero
+};
+
+SHARED_END
+#endif

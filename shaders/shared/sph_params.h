@@ -1,0 +1,75 @@
+// Everything a simulation pass needs besides the particles themselves: one struct in one device buffer, written by the
+// host before the first step. SI units.
+//
+// Number density form (Solenthaler & Pajarola 2008): rho_i = m_i sum_j W_ij, so that fluids of different rest density may
+// touch. With equal masses it is the usual rho_i = sum_j m_j W_ij. The sums include i itself.
+//
+// Lattice moments: sums over a lattice of the scene's spacing miss the continuum integrals by some percent, so every kernel
+// scale below is already divided by its moment on that lattice (design note: README, "Moments").
+#ifndef MELTPOINT_SHARED_SPH_PARAMS_H
+#define MELTPOINT_SHARED_SPH_PARAMS_H
+#include "prelude.h"
+
+SHARED_BEGIN
+
+SHARED_CONSTANT uint KERNEL_PAPER = 0u;    // poly6 density, spiky pressure, viscosity Laplacian (Mueller et al. 2003)
+SHARED_CONSTANT uint KERNEL_WENDLAND = 1u; // Wendland C2 for all three
+
+SHARED_CONSTANT uint STATE_EQUATION_LINEAR = 0u; // p = c0^2 (rho - rho0) + p_background
+SHARED_CONSTANT uint STATE_EQUATION_TAIT = 1u;   // p = (c0^2 rho0 / gamma) ((rho/rho0)^gamma - 1) + p_background
+
+SHARED_CONSTANT uint MAX_MATERIALS = 64u;
+
+// Pairs closer than this fraction of the support radius have no direction: zero gradient, counted in Status.
+SHARED_CONSTANT float COINCIDENT_RATIO = 1e-6f;
+
+// Grid cells are half a support radius long in x and one support radius in y and z. A particle's neighbors lie in the 9 rows
+// (y, z offsets -1, 0, 1) of cells x-2 .. x+2: each row is one contiguous range of the sorted particles.
+SHARED_CONSTANT uint CELLS_PER_SUPPORT_X = 2u;
+
+struct SphParams {
+    vec3 domain_min;      // m
+    float support_radius; // H, m: kernels vanish at r >= H
+    vec3 domain_max;      // m
+    float dt;             // s
+    vec3 gravity;         // m/s^2
+    uint particle_count;
+    uvec3 grid_size;      // cells along x, y, z; cell index = (z * grid_size.y + y) * grid_size.x + x
+    uint wall_mask;       // bit 2a: wall at domain_min[a], bit 2a + 1: wall at domain_max[a]
+
+    uint state_equation;       // STATE_EQUATION_*
+    uint clamp_pressure;       // 1: p = max(p, 0)
+    float speed_of_sound;      // c0, m/s
+    float gamma;               // Tait exponent
+    float background_pressure; // Pa
+    float viscosity;           // dynamic, mu, Pa s
+    float wall_viscosity;      // dynamic, of fluid against walls, Pa s; 0 is free slip
+    float surface_tension;     // sigma of the paper's tension, N/m
+    float tension_threshold;   // on |n| H, dimensionless: below it a particle is interior and feels no tension
+
+    // Kernel scales, divided by their lattice moments. q = r/H.
+    float density_scale;         // paper: W = scale (1-q^2)^3         wendland: W = scale (1-q)^4 (1+4q)      [1/m^3]
+    float gradient_scale;        // paper: W' = -scale (1-q)^2         wendland: W' = -scale q (1-q)^3         [1/m^4]
+    float viscosity_scale;       // paper: lap = scale (1-q)           wendland: lap = scale (1-q)^3           [1/m^5]
+    float color_gradient_scale;  // paper: W' = -scale q (1-q^2)^2     wendland: as gradient_scale             [1/m^4]
+    float color_laplacian_scale; // paper: lap = -scale (1-q^2)(3-7q^2)   wendland: lap = -scale (1-q)^2 (1-2q) [1/m^5]
+
+    // Walls are half spaces of fluid at rest, integrated exactly over the kernel (plane integrals of s = distance to the
+    // wall, positive inside). Calibrated so that a lattice whose first layer lies d/2 off the wall has density rho0 and
+    // feels no net force under constant pressure.
+    float wall_density_offset; // m, added to s in the density integral
+    float wall_gradient_scale; // factor of the gradient integral (moment included)
+
+    // A lone particle never reaches rest density at a plane, so pressure alone cannot hold it: a damped spring acts nearer
+    // than contact_distance, where fluid in bulk never settles.
+    float contact_distance;  // m
+    float contact_stiffness; // 1/s^2
+    float contact_damping;   // 1/s
+
+    float speed_limit; // m/s: faster particles are FAULT_TOO_FAST
+
+    float rest_density[MAX_MATERIALS]; // kg/m^3
+};
+
+SHARED_END
+#endif
