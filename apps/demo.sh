@@ -17,8 +17,11 @@ while [ $# -gt 0 ]; do
         --no-install) install=no ;;
         --out=*) frames=${1#*=} ;;
         --video=*) video=${1#*=} ;;
-        --out) frames=${2:?--out needs a folder} && shift ;;
-        --video) video=${2:?--video needs a file} && shift ;;
+        --out | --video)
+            [ $# -ge 2 ] || fail "$1 needs a path"
+            if [ "$1" = --out ]; then frames=$2; else video=$2; fi
+            shift
+            ;;
         -h | --help)
             sed -n '2,/^set/{/^set/d;s/^# \{0,1\}//;p}' apps/demo.sh
             exit 0
@@ -34,6 +37,7 @@ else
 fi
 
 set_up "$install" "${required_packages[@]}"
+require_compiler
 echo "Building build/release"
 mkdir -p build
 configure release >build/configure.log 2>&1 || fail "cmake could not configure the build: see build/configure.log" 1

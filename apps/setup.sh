@@ -46,8 +46,8 @@ fail() {
 
 # missing_packages PACKAGE...: those that are not installed, one a line.
 missing_packages() {
-    local installed
-    installed=$(dpkg-query --show --showformat '${db:Status-Status} ${Package}\n' "$@" 2>/dev/null | sed -n 's/^installed //p')
+    local installed # dpkg-query fails where it does not know a package, and still lists the others
+    installed=$(dpkg-query --show --showformat '${db:Status-Status} ${Package}\n' "$@" 2>/dev/null | sed -n 's/^installed //p') || true
     comm -23 <(printf '%s\n' "$@" | sort) <(sort <<<"$installed")
 }
 
@@ -71,7 +71,7 @@ set_up() {
     mapfile -t missing < <(missing_packages "$@")
     [ "${#missing[@]}" -gt 0 ] || return 0
     [ "$install" = yes ] ||
-        fail "${#missing[@]} packages are missing; install them with: apt-get install ${missing[*]}"
+        fail "these packages are missing: ${missing[*]}"
 
     local name=unknown version=''
     # shellcheck disable=SC1091
@@ -93,6 +93,7 @@ set_up() {
 
 # require_compiler: says so at once where the compiler that CMake would take is too old.
 require_compiler() {
+    [ -f build/release/CMakeCache.txt ] && return
     local compiler=${CXX:-c++}
     # std::views is what older compilers lack, among them Debian's clang 14 with its libstdc++ 12.
     # shellcheck disable=SC2086 # CXX may carry a launcher: "ccache g++"
@@ -108,7 +109,6 @@ CPP
 configure() {
     local preset=$1
     shift
-    [ -f "build/$preset/CMakeCache.txt" ] || require_compiler
     cmake --preset "$preset" -DCMAKE_CXX_COMPILER_LAUNCHER="$(command -v ccache)" "$@"
 }
 

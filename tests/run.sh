@@ -30,6 +30,7 @@ if [ "$all" = yes ]; then
     packages+=("${check_packages[@]}")
 fi
 set_up "$install" "${packages[@]}"
+require_compiler
 mkdir -p build/logs
 
 # --- stages ------------------------------------------------------------------------------------------------------------
