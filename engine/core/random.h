@@ -8,7 +8,10 @@ namespace meltpoint {
 /// split over threads draws the same numbers whatever the thread count: give each item its own stream.
 class Random {
 public:
-    explicit Random(std::uint64_t seed, std::uint64_t stream = 0) : state_(mix(seed) ^ mix(stream + 0x632be59bd9b4e019ULL)) {}
+    explicit Random(std::uint64_t seed, std::uint64_t stream = 0)
+        : state_(mix(seed) ^ mix(stream + 0x632be59bd9b4e019ULL))
+    {
+    }
 
     /// 64 uniformly distributed bits.
     std::uint64_t next()
@@ -21,10 +24,7 @@ public:
     double uniform() { return static_cast<double>(next() >> 11) * 0x1.0p-53; }
 
     /// Uniform in [0, bound) without modulo bias worth the name (Lemire 2019, multiply-shift).
-    std::uint32_t below(std::uint32_t bound)
-    {
-        return static_cast<std::uint32_t>(((next() >> 32) * bound) >> 32);
-    }
+    std::uint32_t below(std::uint32_t bound) { return static_cast<std::uint32_t>(((next() >> 32) * bound) >> 32); }
 
 private:
     static std::uint64_t mix(std::uint64_t z)

@@ -10,8 +10,9 @@
 
 namespace meltpoint {
 
-/// The particles on the host, one array an attribute: the one form that the CPU reference, exports and checkpoints share.
-/// SI units. All arrays have the same length. In a set that comes from the device or from sampling, particle i has id i.
+/// The particles on the host, one array an attribute: the one form that the CPU reference, exports and checkpoints
+/// share. SI units. All arrays have the same length. In a set that comes from the device or from sampling, particle i
+/// has id i.
 struct ParticleSet {
     std::vector<std::uint32_t> id;
     std::vector<std::uint32_t> attributes; ///< shared::pack_attributes(state, material) and flags

@@ -10,8 +10,8 @@
 
 namespace meltpoint {
 
-/// Plain data: all that a run needs. SI units, angles in degrees. Keys, units, defaults and ranges of the TOML form are in
-/// scene_file.cpp's key table, from which apps/scenes/README.md is generated. std::nullopt means "auto".
+/// Plain data: all that a run needs. SI units, angles in degrees. Keys, units, defaults and ranges of the TOML form are
+/// in scene_file.cpp's key table, from which apps/scenes/README.md is generated. std::nullopt means "auto".
 
 enum class SphKernel { Paper, Wendland };
 enum class StateEquation { Linear, Tait };
@@ -30,14 +30,14 @@ struct ParticleSettings {
 };
 
 struct FluidPhysics {
-    glm::vec3 gravity{0.0f, -9.81f, 0.0f};           ///< m/s^2
-    float viscosity = 0.5f;                          ///< dynamic, Pa s
-    float surface_tension = 0.0f;                    ///< N/m, the paper's model (a look)
-    float tension_threshold = 0.5f;                  ///< on |n| H
+    glm::vec3 gravity{0.0f, -9.81f, 0.0f}; ///< m/s^2
+    float viscosity = 0.5f;                ///< dynamic, Pa s
+    float surface_tension = 0.0f;          ///< N/m, the paper's model (a look)
+    float tension_threshold = 0.5f;        ///< on |n| H
     StateEquation state_equation = StateEquation::Tait;
-    std::optional<float> speed_of_sound;             ///< m/s; auto: 10 times the speed expected of this scene
-    float gamma = 7.0f;                              ///< Tait exponent
-    float background_pressure = 0.0f;                ///< Pa
+    std::optional<float> speed_of_sound; ///< m/s; auto: 10 times the speed expected of this scene
+    float gamma = 7.0f;                  ///< Tait exponent
+    float background_pressure = 0.0f;    ///< Pa
     bool clamp_pressure = true;
 };
 
@@ -58,28 +58,29 @@ struct SphereShape {
 };
 
 struct MeshShape {
-    std::string mesh;             ///< a path, resolved by the scene reader, or "builtin:teapot" and the like
-    std::optional<float> size;    ///< m, largest extent after scaling; auto: the mesh's own units are meters
-    glm::vec3 position{0.0f};     ///< m, where the center of the mesh's bounding box goes
-    glm::vec3 rotation{0.0f};     ///< degrees about x, then y, then z, about the center
+    std::string mesh;          ///< a path, resolved by the scene reader, or "builtin:teapot" and the like
+    std::optional<float> size; ///< m, largest extent after scaling; auto: the mesh's own units are meters
+    glm::vec3 position{0.0f};  ///< m, where the center of the mesh's bounding box goes
+    glm::vec3 rotation{0.0f};  ///< degrees about x, then y, then z, about the center
 };
 
 struct FluidBody {
     std::variant<BlockShape, SphereShape, MeshShape> shape;
-    float rest_density = 1000.0f;           ///< kg/m^3
-    glm::vec3 velocity{0.0f};               ///< m/s
-    glm::mat3 velocity_gradient{0.0f};      ///< 1/s: adds gradient * position (a column-major glm matrix: gradient[column][row])
-    glm::vec3 spin{0.0f};                   ///< rad/s: adds spin x (position - spin_center)
-    std::optional<glm::vec3> spin_center;   ///< m; auto: the body's center
-    glm::vec3 color{0.16f, 0.45f, 0.78f};   ///< linear RGB of the material color mode
+    float rest_density = 1000.0f; ///< kg/m^3
+    glm::vec3 velocity{0.0f};     ///< m/s
+    glm::mat3 velocity_gradient{
+        0.0f};            ///< 1/s: adds gradient * position (a column-major glm matrix: gradient[column][row])
+    glm::vec3 spin{0.0f}; ///< rad/s: adds spin x (position - spin_center)
+    std::optional<glm::vec3> spin_center; ///< m; auto: the body's center
+    glm::vec3 color{0.16f, 0.45f, 0.78f}; ///< linear RGB of the material color mode
 };
 
 enum class Projection { Perspective, Orthographic };
 
 struct CameraSettings {
     Projection projection = Projection::Perspective;
-    std::optional<glm::vec3> eye;     ///< m; auto: frames the domain
-    std::optional<glm::vec3> target;  ///< m; auto: center of the domain's lower half
+    std::optional<glm::vec3> eye;    ///< m; auto: frames the domain
+    std::optional<glm::vec3> target; ///< m; auto: center of the domain's lower half
     glm::vec3 up{0.0f, 1.0f, 0.0f};
     float field_of_view = 40.0f;      ///< degrees, vertical
     std::optional<float> view_height; ///< m, of the orthographic view; auto: the domain's
@@ -88,13 +89,13 @@ struct CameraSettings {
 enum class ColorMode { Material, Density, Speed, Pressure };
 
 struct RenderSettings {
-    std::uint32_t width = 960;   ///< pixels
-    std::uint32_t height = 540;  ///< pixels
+    std::uint32_t width = 960;  ///< pixels
+    std::uint32_t height = 540; ///< pixels
     ColorMode color = ColorMode::Material;
-    bool legend = true;          ///< drawn in every mode but material
+    bool legend = true;                   ///< drawn in every mode but material
     std::optional<glm::vec2> color_range; ///< in the mode's unit; auto: a fixed range derived from the scene
-    bool floor = true;           ///< a ground plane at the domain's lowest face
-    float splat_radius = 0.6f;   ///< of a fluid sphere, in particle spacings
+    bool floor = true;                    ///< a ground plane at the domain's lowest face
+    float splat_radius = 0.6f;            ///< of a fluid sphere, in particle spacings
     glm::vec3 background{0.93f, 0.95f, 0.97f};
 };
 

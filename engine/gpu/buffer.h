@@ -1,0 +1,73 @@
+#pragma once
+
+#include <cstddef>
+#include <span>
+#include <string>
+
+#include "gpu/context.h"
+
+namespace meltpoint::gpu {
+
+enum class MemoryUse {
+    Device,   ///< for the device alone; filled and read through copies
+    Upload,   ///< the host writes, the device reads
+    Readback, ///< the device writes, the host reads after the fence
+};
+
+/// Who touched a buffer last, as far as it matters for the next barrier. All work goes to one queue in recording order,
+/// so the state may live in the buffer and carry over from one submission to the next.
+struct AccessState {
+    VkPipelineStageFlags2 write_stages = 0;
+    VkAccessFlags2 write_access = 0;
+    VkPipelineStageFlags2 read_stages = 0;    ///< since the last write
+    VkPipelineStageFlags2 visible_stages = 0; ///< to which the last write has been made visible
+    VkAccessFlags2 visible_access = 0;
+};
+
+/// A storage buffer with memory of its own. Move-only.
+class Buffer {
+public:
+    Buffer() = default;
+    /// Allocates `bytes` (at least 16). Throws Device when the device's storage buffer range or its memory does not
+    /// allow it.
+    Buffer(const Context& context, VkDeviceSize bytes, MemoryUse use, const std::string& name);
+    ~Buffer();
+    Buffer(Buffer&& other) noexcept;
+    Buffer& operator=(Buffer&& other) noexcept;
+
+    [[nodiscard]] VkBuffer handle() const { return buffer_; }
+    [[nodiscard]] VkDeviceSize size() const { return size_; }
+    [[nodiscard]] MemoryUse use() const { return use_; }
+    [[nodiscard]] const std::string& name() const { return name_; }
+
+    /// Host view of an Upload or Readback buffer.
+    template <class T>
+    [[nodiscard]] std::span<T> mapped() const
+    {
+        return {static_cast<T*>(mapped_), static_cast<std::size_t>(size_) / sizeof(T)};
+    }
+
+    /// Bookkeeping of Commands; not part of the buffer's value.
+    [[nodiscard]] AccessState& access_state() const { return access_; }
+
+private:
+    void release() noexcept;
+
+    const Context* context_ = nullptr;
+    VkBuffer buffer_ = VK_NULL_HANDLE;
+    VkDeviceMemory memory_ = VK_NULL_HANDLE;
+    VkDeviceSize size_ = 0;
+    MemoryUse use_ = MemoryUse::Device;
+    void* mapped_ = nullptr;
+    std::string name_;
+    mutable AccessState access_;
+};
+
+/// A device buffer of `count` elements of T.
+template <class T>
+[[nodiscard]] Buffer make_buffer(const Context& context, std::size_t count, const std::string& name)
+{
+    return {context, count * sizeof(T), MemoryUse::Device, name};
+}
+
+} // namespace meltpoint::gpu
