@@ -1,0 +1,245 @@
+// Kernels, their lattice moments and their plane integrals.
+// Müller, Charypar & Gross, "Particle-Based Fluid Simulation for Interactive Applications", SCA 2003 (poly6, spiky,
+// viscosity). Dehnen & Aly, "Improving convergence in SPH simulations without pairing instability", MNRAS 425, 2012
+// (Wendland C2).
+#include "particles/sph_kernel.h"
+
+#include <cmath>
+#include <numbers>
+
+#include "core/error.h"
+
+namespace meltpoint {
+namespace {
+
+constexpr double PI = std::numbers::pi;
+
+// Calls body(offset along the wall's normal in spacings, distance in spacings) for each site of the cubic lattice
+// nearer than the support radius, the origin included.
+template <class Body>
+void for_each_lattice_site(double support_ratio, const Body& body)
+{
+    const int reach = static_cast<int>(support_ratio);
+    for (int x = -reach; x <= reach; ++x) {
+        for (int y = -reach; y <= reach; ++y) {
+            for (int z = -reach; z <= reach; ++z) {
+                const double r = std::sqrt(static_cast<double>(x * x + y * y + z * z));
+                if (r < support_ratio) {
+                    body(x, r);
+                }
+            }
+        }
+    }
+}
+
+double checked_support_ratio(double support_radius, double spacing)
+{
+    const double ratio = support_radius / spacing;
+    // A float ratio of exactly 8 spacings may come out a hair above 8.
+    const double slack = 1e-6;
+    if (!(spacing > 0.0) || !(ratio >= MIN_SUPPORT_RATIO - slack) || !(ratio <= MAX_SUPPORT_RATIO + slack)) {
+        throw input_error("The support radius must be {} to {} particle spacings, but {} m is {} spacings of {} m",
+                          MIN_SUPPORT_RATIO, MAX_SUPPORT_RATIO, support_radius, ratio, spacing);
+    }
+    return ratio;
+}
+
+} // namespace
+
+double density_shape(std::uint32_t kernel, double q)
+{
+    if (q >= 1.0) {
+        return 0.0;
+    }
+    if (kernel == shared::KERNEL_PAPER) {
+        const double u = 1.0 - q * q;
+        return u * u * u;
+    }
+    const double u = 1.0 - q;
+    return u * u * u * u * (1.0 + 4.0 * q);
+}
+
+double gradient_shape(std::uint32_t kernel, double q)
+{
+    if (q >= 1.0) {
+        return 0.0;
+    }
+    const double u = 1.0 - q;
+    return kernel == shared::KERNEL_PAPER ? u * u : q * u * u * u;
+}
+
+double viscosity_shape(std::uint32_t kernel, double q)
+{
+    if (q >= 1.0) {
+        return 0.0;
+    }
+    const double u = 1.0 - q;
+    return kernel == shared::KERNEL_PAPER ? u : u * u * u;
+}
+
+double color_gradient_shape(std::uint32_t kernel, double q)
+{
+    if (q >= 1.0) {
+        return 0.0;
+    }
+    if (kernel == shared::KERNEL_PAPER) {
+        const double u = 1.0 - q * q;
+        return q * u * u;
+    }
+    return gradient_shape(kernel, q);
+}
+
+double color_laplacian_shape(std::uint32_t kernel, double q)
+{
+    if (q >= 1.0) {
+        return 0.0;
+    }
+    if (kernel == shared::KERNEL_PAPER) {
+        return (1.0 - q * q) * (3.0 - 7.0 * q * q);
+    }
+    const double u = 1.0 - q;
+    return u * u * (1.0 - 2.0 * q);
+}
+
+KernelScales continuum_scales(std::uint32_t kernel, double support_radius)
+{
+    const double h = support_radius;
+    const double h3 = h * h * h;
+    const double h4 = h3 * h;
+    const double h5 = h4 * h;
+    if (kernel == shared::KERNEL_PAPER) {
+        return {.density = 315.0 / (64.0 * PI * h3),
+                .gradient = 45.0 / (PI * h4),
+                .viscosity = 45.0 / (PI * h5),
+                .color_gradient = 945.0 / (32.0 * PI * h4),
+                .color_laplacian = 945.0 / (32.0 * PI * h5)};
+    }
+    return {.density = 21.0 / (2.0 * PI * h3),
+            .gradient = 210.0 / (PI * h4),
+            .viscosity = 420.0 / (PI * h5),
+            .color_gradient = 210.0 / (PI * h4),
+            .color_laplacian = 630.0 / (PI * h5)};
+}
+
+LatticeMoments lattice_moments(std::uint32_t kernel, double support_radius, double spacing)
+{
+    const double ratio = checked_support_ratio(support_radius, spacing);
+    const KernelScales scale = continuum_scales(kernel, ratio); // in units of the spacing: d = 1
+    LatticeMoments moments{};
+    for_each_lattice_site(ratio, [&](int x, double r) {
+        const double q = r / ratio;
+        const double xx = static_cast<double>(x * x);
+        moments.density += scale.density * density_shape(kernel, q);
+        moments.viscosity += 0.5 * xx * scale.viscosity * viscosity_shape(kernel, q);
+        moments.color_laplacian -= 0.5 * xx * scale.color_laplacian * color_laplacian_shape(kernel, q);
+        if (x != 0) {
+            moments.gradient += xx / r * scale.gradient * gradient_shape(kernel, q);
+            moments.color_gradient += xx / r * scale.color_gradient * color_gradient_shape(kernel, q);
+        }
+    });
+    return moments;
+}
+
+double wall_density_integral(std::uint32_t kernel, double distance, double support_radius)
+{
+    const double q = distance / support_radius;
+    if (q >= 1.0) {
+        return 0.0;
+    }
+    if (q <= -1.0) {
+        return 1.0;
+    }
+    if (kernel == shared::KERNEL_PAPER) {
+        const double q2 = q * q;
+        const double odd = q * (1.0 + q2 * (-4.0 / 3.0 + q2 * (6.0 / 5.0 + q2 * (-4.0 / 7.0 + q2 / 9.0))));
+        return 0.5 - 315.0 / 256.0 * odd;
+    }
+    const double u = 1.0 - std::abs(q);
+    const double u3 = u * u * u;
+    const double beyond = 21.0 * u3 * u3 * (1.0 / 6.0 - 3.0 * u / 14.0 + u * u / 14.0);
+    return q >= 0.0 ? beyond : 1.0 - beyond;
+}
+
+double wall_gradient_integral(std::uint32_t kernel, double distance, double support_radius)
+{
+    const double q = std::abs(distance) / support_radius;
+    if (q >= 1.0) {
+        return 0.0;
+    }
+    const double u = 1.0 - q;
+    const double u4 = u * u * u * u;
+    if (kernel == shared::KERNEL_PAPER) {
+        return 3.0 / (2.0 * support_radius) * u4 * (1.0 + 4.0 * q);
+    }
+    return 21.0 / support_radius * u4 * u * (1.0 - 3.0 * u / 2.0 + 4.0 * u * u / 7.0);
+}
+
+double wall_viscosity_integral(std::uint32_t kernel, double distance, double support_radius)
+{
+    if (distance < 0.0) {
+        return 2.0 * wall_viscosity_integral(kernel, 0.0, support_radius) -
+               wall_viscosity_integral(kernel, -distance, support_radius);
+    }
+    const double q = distance / support_radius;
+    if (q >= 1.0) {
+        return 0.0;
+    }
+    const double u = 1.0 - q;
+    const double per_area = 1.0 / (support_radius * support_radius);
+    if (kernel == shared::KERNEL_PAPER) {
+        return 7.5 * per_area * u * u * u * (1.0 + q);
+    }
+    return 14.0 * per_area * u * u * u * u * u * (1.0 + 2.0 * q);
+}
+
+WallCalibration calibrate_wall(std::uint32_t kernel, double support_radius, double spacing)
+{
+    const double ratio = checked_support_ratio(support_radius, spacing);
+    const KernelScales scale = continuum_scales(kernel, ratio);
+    const LatticeMoments moments = lattice_moments(kernel, support_radius, spacing);
+
+    // What a particle of the first layer misses: the lattice sites beyond the wall.
+    double missing_density = 0.0;
+    double missing_gradient = 0.0;
+    for_each_lattice_site(ratio, [&](int x, double r) {
+        if (x < 0) {
+            missing_density += scale.density * density_shape(kernel, r / ratio);
+            missing_gradient += -x / r * scale.gradient * gradient_shape(kernel, r / ratio);
+        }
+    });
+    missing_density /= moments.density;
+    missing_gradient /= moments.gradient;
+
+    // The density integral falls with distance: bisect for the distance at which it is what the lattice misses.
+    double low = -ratio;
+    double high = ratio;
+    for (int i = 0; i < 100; ++i) {
+        const double middle = 0.5 * (low + high);
+        (wall_density_integral(kernel, middle, ratio) > missing_density ? low : high) = middle;
+    }
+    return {.density_offset = (low - 0.5) * spacing,
+            .gradient_scale = missing_gradient / wall_gradient_integral(kernel, 0.5, ratio)};
+}
+
+void set_kernel_scales(shared::SphParams& params, std::uint32_t kernel, double spacing)
+{
+    const double support_radius = static_cast<double>(params.support_radius);
+    const LatticeMoments moments = lattice_moments(kernel, support_radius, spacing);
+    const KernelScales scale = continuum_scales(kernel, support_radius);
+    params.density_scale = static_cast<float>(scale.density / moments.density);
+    params.gradient_scale = static_cast<float>(scale.gradient / moments.gradient);
+    params.viscosity_scale = static_cast<float>(scale.viscosity / moments.viscosity);
+    params.color_gradient_scale = static_cast<float>(scale.color_gradient / moments.color_gradient);
+    params.color_laplacian_scale = static_cast<float>(scale.color_laplacian / moments.color_laplacian);
+
+    const WallCalibration wall = calibrate_wall(kernel, support_radius, spacing);
+    params.wall_density_offset = static_cast<float>(wall.density_offset);
+    params.wall_gradient_scale = static_cast<float>(wall.gradient_scale);
+
+    const double rate = static_cast<double>(params.speed_of_sound) / spacing; // sound crosses a spacing in 1/rate
+    params.contact_distance = static_cast<float>(0.25 * spacing);
+    params.contact_stiffness = static_cast<float>(rate * rate);
+    params.contact_damping = static_cast<float>(rate);
+}
+
+} // namespace meltpoint

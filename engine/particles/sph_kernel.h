@@ -1,0 +1,85 @@
+#pragma once
+
+#include <cstdint>
+
+#include "shared/sph_params.h"
+
+namespace meltpoint {
+
+/// The kernels of SPH in three dimensions, in double precision. `kernel` is shared::KERNEL_PAPER (poly6 for density and
+/// color field, spiky for pressure, viscosity Laplacian; Müller, Charypar & Gross 2003) or shared::KERNEL_WENDLAND
+/// (Wendland C2 for all; Wendland 1995, Dehnen & Aly 2012).
+///
+/// Every kernel is a scale times a shape. The shape is a pure number, a function of q = r/H, zero for q >= 1; the scale
+/// carries the units and depends on the support radius H alone.
+
+/// W = density scale * shape.
+[[nodiscard]] double density_shape(std::uint32_t kernel, double q);
+
+/// W'(r) = -gradient scale * shape: the radial derivative of the kernel that pressure uses.
+[[nodiscard]] double gradient_shape(std::uint32_t kernel, double q);
+
+/// L = viscosity scale * shape, L > 0. Paper: a Laplacian made to be positive. Wendland: -2 W'/r (Morris, Fox & Zhu
+/// 1997).
+[[nodiscard]] double viscosity_shape(std::uint32_t kernel, double q);
+
+/// W'(r) = -color gradient scale * shape, the radial derivative of the color field's kernel.
+[[nodiscard]] double color_gradient_shape(std::uint32_t kernel, double q);
+
+/// lap W = -color Laplacian scale * shape, the Laplacian of the color field's kernel.
+[[nodiscard]] double color_laplacian_shape(std::uint32_t kernel, double q);
+
+struct KernelScales {
+    double density;         ///< 1/m^3
+    double gradient;        ///< 1/m^4
+    double viscosity;       ///< 1/m^5
+    double color_gradient;  ///< 1/m^4
+    double color_laplacian; ///< 1/m^5
+};
+
+/// The scales whose kernels integrate to one. support_radius in meters.
+[[nodiscard]] KernelScales continuum_scales(std::uint32_t kernel, double support_radius);
+
+/// What the kernel sums give on a cubic lattice of spacing d; each is 1 in the continuum (Monaghan 2005, section 2).
+struct LatticeMoments {
+    double density;         ///< sum d^3 W, self included
+    double gradient;        ///< -sum d^3 x dW/dx
+    double viscosity;       ///< 1/2 sum d^3 x^2 L
+    double color_gradient;  ///< -sum d^3 x dW/dx
+    double color_laplacian; ///< 1/2 sum d^3 x^2 lap W
+};
+
+/// support_radius and spacing in meters. Throws Error{Input} unless MIN_SUPPORT_RATIO <= H/d <= MAX_SUPPORT_RATIO.
+[[nodiscard]] LatticeMoments lattice_moments(std::uint32_t kernel, double support_radius, double spacing);
+
+inline constexpr double MIN_SUPPORT_RATIO = 1.2; ///< below, a lattice has hardly any neighbors left
+inline constexpr double MAX_SUPPORT_RATIO = 8.0; ///< above, a particle has more than 2100 neighbors
+
+/// Plane integrals: what the half space beyond a plane wall adds. `distance` is the particle's signed distance to the
+/// wall in meters, positive inside; the kernels are those of the continuum. Integral of W, dimensionless: 1/2 on the
+/// plane, 0 at distance >= H, 1 at distance <= -H.
+[[nodiscard]] double wall_density_integral(std::uint32_t kernel, double distance, double support_radius);
+
+/// Length of the integral of the pressure kernel's gradient, 1/m: by the divergence theorem, the integral of W over the
+/// plane.
+[[nodiscard]] double wall_gradient_integral(std::uint32_t kernel, double distance, double support_radius);
+
+/// Integral of L, 1/m^2.
+[[nodiscard]] double wall_viscosity_integral(std::uint32_t kernel, double distance, double support_radius);
+
+/// A plane is no lattice: these make a cubic lattice whose first layer lies half a spacing off a wall fit the plane
+/// integrals. Then a particle of the first layer has exactly rest density and feels no force under constant pressure.
+struct WallCalibration {
+    double density_offset; ///< m, added to the distance in the density integral
+    double gradient_scale; ///< factor of the gradient integral, lattice moment included
+};
+
+/// Throws as lattice_moments does.
+[[nodiscard]] WallCalibration calibrate_wall(std::uint32_t kernel, double support_radius, double spacing);
+
+/// Fills what follows from kernel, spacing (m), support radius and speed of sound: the five kernel scales divided by
+/// their lattice moments, the wall calibration and the contact spring. params.support_radius and params.speed_of_sound
+/// must be set. Throws as lattice_moments does.
+void set_kernel_scales(shared::SphParams& params, std::uint32_t kernel, double spacing);
+
+} // namespace meltpoint
