@@ -1,0 +1,175 @@
+// Müller, Charypar & Gross, "Particle-Based Fluid Simulation for Interactive Applications", SCA 2003.
+// Monaghan, "Smoothed Particle Hydrodynamics", Rep. Prog. Phys. 68, 2005 (the pressure sum that conserves momentum).
+#include "reference/forces.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+#include "core/parallel_for.h"
+#include "particles/sph_kernel.h"
+#include "reference/walls.h"
+
+namespace meltpoint::reference {
+namespace {
+
+double volume(const State& state, std::size_t i)
+{
+    return state.mass[i] / state.density[i];
+}
+
+// A pair as particle i sees it: q = r/H, and the direction from j to i, zero for coincident particles.
+struct Pair {
+    double q;
+    glm::dvec3 direction;
+    bool coincident;
+};
+
+Pair make_pair(const Settings& settings, const State& state, std::size_t i, std::size_t j)
+{
+    const glm::dvec3 offset = state.position[i] - state.position[j];
+    const double r = glm::length(offset);
+    const double q = r / static_cast<double>(settings.params.support_radius);
+    const bool coincident = q < static_cast<double>(shared::COINCIDENT_RATIO);
+    return {q, coincident ? glm::dvec3(0.0) : offset / r, coincident};
+}
+
+} // namespace
+
+VectorSum pressure_acceleration(const Settings& settings, const State& state, const Neighbors& neighbors, std::size_t i)
+{
+    const double scale = static_cast<double>(settings.params.gradient_scale);
+    const auto weight = [&](std::size_t k) {
+        return state.pressure[k] * volume(state, k) * volume(state, k);
+    };
+    VectorSum sum;
+    for (const std::uint32_t j : neighbors.of(i)) {
+        const Pair pair = make_pair(settings, state, i, j);
+        const glm::dvec3 kernel_gradient = -scale * gradient_shape(settings.kernel, pair.q) * pair.direction;
+        sum.add(-(weight(i) + weight(j)) / state.mass[i] * kernel_gradient);
+    }
+    return sum;
+}
+
+VectorSum viscosity_acceleration(const Settings& settings, const State& state, const Neighbors& neighbors,
+                                 std::size_t i)
+{
+    const double scale = static_cast<double>(settings.params.viscosity_scale);
+    const double factor = static_cast<double>(settings.params.viscosity) * volume(state, i) / state.mass[i];
+    VectorSum sum;
+    for (const std::uint32_t j : neighbors.of(i)) {
+        const Pair pair = make_pair(settings, state, i, j);
+        const double laplacian = scale * viscosity_shape(settings.kernel, pair.q);
+        sum.add(factor * volume(state, j) * laplacian * (state.velocity[j] - state.velocity[i]));
+    }
+    return sum;
+}
+
+ColorField color_field(const Settings& settings, const State& state, const Neighbors& neighbors, std::size_t i)
+{
+    const double gradient_scale = static_cast<double>(settings.params.color_gradient_scale);
+    const double laplacian_scale = static_cast<double>(settings.params.color_laplacian_scale);
+    ColorField color;
+    const auto add_laplacian = [&](double term) {
+        color.laplacian += term;
+        color.laplacian_magnitude += std::abs(term);
+    };
+    add_laplacian(-volume(state, i) * laplacian_scale * color_laplacian_shape(settings.kernel, 0.0));
+    for (const std::uint32_t j : neighbors.of(i)) {
+        const Pair pair = make_pair(settings, state, i, j);
+        color.gradient.add(-volume(state, j) * gradient_scale * color_gradient_shape(settings.kernel, pair.q) *
+                           pair.direction);
+        add_laplacian(-volume(state, j) * laplacian_scale * color_laplacian_shape(settings.kernel, pair.q));
+    }
+    return color;
+}
+
+VectorSum tension_acceleration(const Settings& settings, const State& state, const Neighbors& neighbors, std::size_t i)
+{
+    const double sigma = static_cast<double>(settings.params.surface_tension);
+    if (!(sigma > 0.0)) {
+        return {};
+    }
+    const ColorField color = color_field(settings, state, neighbors, i);
+    const double length = glm::length(color.gradient.value);
+    const double steepness = length * static_cast<double>(settings.params.support_radius);
+    if (!(steepness > static_cast<double>(settings.params.tension_threshold))) {
+        return {};
+    }
+    const double factor = sigma / state.density[i];
+    return {-factor * color.laplacian * color.gradient.value / length, factor * color.laplacian_magnitude};
+}
+
+VectorSum wall_pressure_acceleration(const Settings& settings, const State& state, std::size_t i)
+{
+    const double support_radius = static_cast<double>(settings.params.support_radius);
+    const double scale = static_cast<double>(settings.params.wall_gradient_scale);
+    VectorSum sum;
+    for_each_wall(settings.params, state.position[i], [&](double distance, const glm::dvec3& normal, int wall) {
+        const double gradient = scale * wall_gradient_integral(settings.kernel, distance, support_radius);
+        if (gradient > 0.0) {
+            const double uncovered = inside_fraction(settings, state.position[i], wall);
+            sum.add(2.0 * state.pressure[i] / state.density[i] * gradient * uncovered * normal);
+        }
+    });
+    return sum;
+}
+
+VectorSum wall_viscosity_acceleration(const Settings& settings, const State& state, std::size_t i)
+{
+    const double support_radius = static_cast<double>(settings.params.support_radius);
+    const double moment = continuum_scales(settings.kernel, support_radius).viscosity /
+                          static_cast<double>(settings.params.viscosity_scale);
+    const double factor = static_cast<double>(settings.params.wall_viscosity) / (state.density[i] * moment);
+    VectorSum sum;
+    for_each_wall(settings.params, state.position[i], [&](double distance, const glm::dvec3&, int) {
+        sum.add(-factor * wall_viscosity_integral(settings.kernel, distance, support_radius) * state.velocity[i]);
+    });
+    return sum;
+}
+
+VectorSum contact_acceleration(const Settings& settings, const State& state, std::size_t i)
+{
+    const double reach = static_cast<double>(settings.params.contact_distance);
+    const double stiffness = static_cast<double>(settings.params.contact_stiffness);
+    const double damping = static_cast<double>(settings.params.contact_damping);
+    VectorSum sum;
+    for_each_wall(settings.params, state.position[i], [&](double distance, const glm::dvec3& normal, int) {
+        if (distance < reach) {
+            const double push = stiffness * (reach - distance) - damping * glm::dot(state.velocity[i], normal);
+            sum.add(std::max(0.0, push) * normal);
+        }
+    });
+    return sum;
+}
+
+Accelerations accelerations(const Settings& settings, const State& state, const Neighbors& neighbors)
+{
+    const std::size_t count = state.size();
+    Accelerations a;
+    for (auto* term :
+         {&a.pressure, &a.viscosity, &a.tension, &a.wall_pressure, &a.wall_viscosity, &a.contact, &a.total}) {
+        term->resize(count);
+    }
+    std::vector<std::uint32_t> coincident(count, 0u);
+    parallel_for(count, [&](std::size_t i) {
+        a.pressure[i] = pressure_acceleration(settings, state, neighbors, i);
+        a.viscosity[i] = viscosity_acceleration(settings, state, neighbors, i);
+        a.tension[i] = tension_acceleration(settings, state, neighbors, i);
+        a.wall_pressure[i] = wall_pressure_acceleration(settings, state, i);
+        a.wall_viscosity[i] = wall_viscosity_acceleration(settings, state, i);
+        a.contact[i] = contact_acceleration(settings, state, i);
+        a.total[i].add(glm::dvec3(settings.params.gravity));
+        for (const auto* term :
+             {&a.pressure, &a.viscosity, &a.tension, &a.wall_pressure, &a.wall_viscosity, &a.contact}) {
+            a.total[i].add((*term)[i]);
+        }
+        for (const std::uint32_t j : neighbors.of(i)) {
+            coincident[i] += make_pair(settings, state, i, j).coincident ? 1u : 0u;
+        }
+    });
+    a.coincident_pairs = std::accumulate(coincident.begin(), coincident.end(), 0u);
+    return a;
+}
+
+} // namespace meltpoint::reference

@@ -1,0 +1,51 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include <glm/glm.hpp>
+
+#include "particles/particle_set.h"
+#include "shared/particle_state.h"
+#include "shared/sph_params.h"
+
+namespace meltpoint::reference {
+
+/// What the passes read besides the particles: the very structure that the GPU reads. The twins promote its floats to
+/// double, so that a comparison shows the error of the arithmetic and not that of the input.
+struct Settings {
+    std::uint32_t kernel = shared::KERNEL_PAPER;
+    shared::SphParams params{};
+};
+
+/// The particles in double precision, one array an attribute, all of the same length, in id order. SI units.
+struct State {
+    std::vector<std::uint32_t> id;
+    std::vector<std::uint32_t> attributes; ///< shared::pack_attributes(state, material) and flags
+    std::vector<glm::dvec3> position;      ///< m
+    std::vector<glm::dvec3> velocity;      ///< m/s
+    std::vector<glm::dvec3> acceleration;  ///< m/s^2
+    std::vector<double> mass;              ///< kg
+    std::vector<double> density;           ///< kg/m^3
+    std::vector<double> pressure;          ///< Pa
+
+    shared::Status status{}; ///< first fault; coincident is that of the last force evaluation
+    std::uint32_t step = 0;  ///< index of the step to come
+
+    [[nodiscard]] std::size_t size() const { return position.size(); }
+};
+
+/// Every attribute promoted to double.
+[[nodiscard]] State from_particle_set(const ParticleSet& particles);
+
+/// Every attribute rounded to float.
+[[nodiscard]] ParticleSet to_particle_set(const State& state);
+
+/// Rest density of particle i's material, kg/m^3.
+[[nodiscard]] inline double rest_density(const Settings& settings, const State& state, std::size_t i)
+{
+    return static_cast<double>(settings.params.rest_density[shared::particle_material(state.attributes[i])]);
+}
+
+} // namespace meltpoint::reference

@@ -1,0 +1,30 @@
+#include "reference/step.h"
+
+#include "core/parallel_for.h"
+#include "reference/cells.h"
+#include "reference/density.h"
+#include "reference/forces.h"
+#include "reference/integrate.h"
+
+namespace meltpoint::reference {
+
+void evaluate(const Settings& settings, State& state)
+{
+    const Neighbors neighbors = find_neighbors(state.position, static_cast<double>(settings.params.support_radius));
+    update_density(settings, state, neighbors);
+    const Accelerations a = accelerations(settings, state, neighbors);
+    parallel_for(state.size(), [&](std::size_t i) { state.acceleration[i] = a.total[i].value; });
+    state.status.coincident = a.coincident_pairs;
+}
+
+void step(const Settings& settings, State& state)
+{
+    const double half_step = 0.5 * static_cast<double>(settings.params.dt);
+    kick(state, half_step);
+    drift(settings, state);
+    evaluate(settings, state);
+    kick(state, half_step);
+    ++state.step;
+}
+
+} // namespace meltpoint::reference
