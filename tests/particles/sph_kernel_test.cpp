@@ -1,0 +1,292 @@
+#include "particles/sph_kernel.h"
+
+#include <cmath>
+#include <functional>
+#include <numbers>
+
+#include <glm/glm.hpp>
+#include <gtest/gtest.h>
+
+#include "core/error.h"
+
+namespace meltpoint {
+namespace {
+
+constexpr double PI = std::numbers::pi;
+
+// Simpson's rule on 2 n intervals.
+double integrate(double from, double to, const std::function<double(double)>& f, int n = 500)
+{
+    const double h = (to - from) / (2 * n);
+    double sum = f(from) + f(to);
+    for (int i = 1; i < 2 * n; ++i) {
+        sum += (i % 2 == 1 ? 4.0 : 2.0) * f(from + i * h);
+    }
+    return sum * h / 3.0;
+}
+
+class SphKernel : public testing::TestWithParam<std::uint32_t> {
+protected:
+    [[nodiscard]] std::uint32_t kernel() const { return GetParam(); }
+
+    const double h = 0.05;
+    const KernelScales scale = continuum_scales(GetParam(), h);
+
+    [[nodiscard]] double density(double r) const { return scale.density * density_shape(kernel(), r / h); }
+    [[nodiscard]] double gradient(double r) const { return -scale.gradient * gradient_shape(kernel(), r / h); }
+    [[nodiscard]] double viscosity(double r) const { return scale.viscosity * viscosity_shape(kernel(), r / h); }
+    [[nodiscard]] double color_gradient(double r) const
+    {
+        return -scale.color_gradient * color_gradient_shape(kernel(), r / h);
+    }
+    [[nodiscard]] double color_laplacian(double r) const
+    {
+        return -scale.color_laplacian * color_laplacian_shape(kernel(), r / h);
+    }
+};
+
+INSTANTIATE_TEST_SUITE_P(Kernels, SphKernel, testing::Values(shared::KERNEL_PAPER, shared::KERNEL_WENDLAND),
+                         [](const auto& test) { return test.param == shared::KERNEL_PAPER ? "Paper" : "Wendland"; });
+
+TEST_P(SphKernel, EveryKernelHasUnitMoment)
+{
+    const auto over_ball = [&](const std::function<double(double)>& f) {
+        return integrate(0.0, h, [&](double r) { return 4.0 * PI * r * r * f(r); });
+    };
+    EXPECT_NEAR(over_ball([&](double r) { return density(r); }), 1.0, 1e-9);
+    // Integrals of x dW/dx and x^2 L / 2; averaged over directions x^2 is r^2 / 3.
+    EXPECT_NEAR(over_ball([&](double r) { return -r / 3.0 * gradient(r); }), 1.0, 1e-9);
+    EXPECT_NEAR(over_ball([&](double r) { return r * r / 6.0 * viscosity(r); }), 1.0, 1e-9);
+    EXPECT_NEAR(over_ball([&](double r) { return -r / 3.0 * color_gradient(r); }), 1.0, 1e-9);
+    EXPECT_NEAR(over_ball([&](double r) { return r * r / 6.0 * color_laplacian(r); }), 1.0, 1e-9);
+    EXPECT_NEAR(over_ball([&](double r) { return color_laplacian(r); }) * h * h, 0.0, 1e-7);
+}
+
+TEST_P(SphKernel, DerivativesMatchCentralDifferences)
+{
+    const double e = 1e-5 * h;
+    for (double q = 0.05; q < 0.99; q += 0.0437) {
+        const double r = q * h;
+        const auto derivative = [&](const std::function<double(double)>& f) {
+            return (f(r + e) - f(r - e)) / (2.0 * e);
+        };
+        EXPECT_NEAR(color_gradient(r), derivative([&](double s) { return density(s); }), 1e-8 * scale.color_gradient);
+        EXPECT_NEAR(color_laplacian(r), derivative([&](double s) { return s * s * color_gradient(s); }) / (r * r),
+                    1e-6 * scale.color_laplacian);
+        if (kernel() == shared::KERNEL_PAPER) {
+            const auto spiky = [&](double s) {
+                return 15.0 / (PI * std::pow(h, 6)) * std::pow(h - s, 3);
+            };
+            EXPECT_NEAR(gradient(r), derivative(spiky), 1e-8 * scale.gradient);
+        } else {
+            EXPECT_NEAR(gradient(r), derivative([&](double s) { return density(s); }), 1e-8 * scale.gradient);
+            EXPECT_NEAR(viscosity(r), -2.0 * gradient(r) / r, 1e-12 * scale.viscosity);
+        }
+    }
+}
+
+TEST_P(SphKernel, VanishesAtAndBeyondTheSupportRadius)
+{
+    for (const double q : {1.0, 1.0 + 1e-12, 1.5, 100.0}) {
+        EXPECT_EQ(density_shape(kernel(), q), 0.0);
+        EXPECT_EQ(gradient_shape(kernel(), q), 0.0);
+        EXPECT_EQ(viscosity_shape(kernel(), q), 0.0);
+        EXPECT_EQ(color_gradient_shape(kernel(), q), 0.0);
+        EXPECT_EQ(color_laplacian_shape(kernel(), q), 0.0);
+    }
+}
+
+TEST_P(SphKernel, GradientSumsToZeroOverASymmetricNeighborhood)
+{
+    glm::dvec3 sum(0.0);
+    double length = 0.0;
+    const double spacing = h / 2.6;
+    for (int x = -3; x <= 3; ++x) {
+        for (int y = -3; y <= 3; ++y) {
+            for (int z = -3; z <= 3; ++z) {
+                const glm::dvec3 offset = spacing * glm::dvec3(x, y, z);
+                const double r = glm::length(offset);
+                if (r > 0.0) {
+                    sum += gradient(r) / r * offset;
+                    length += std::abs(gradient(r));
+                }
+            }
+        }
+    }
+    EXPECT_GT(length, 0.0);
+    EXPECT_LT(glm::length(sum), 1e-14 * length);
+}
+
+// --- lattice moments
+// --------------------------------------------------------------------------------------------------
+
+TEST_P(SphKernel, LatticeMomentsTendToOne)
+{
+    const LatticeMoments fine = lattice_moments(kernel(), h, h / 8.0);
+    for (const double moment :
+         {fine.density, fine.gradient, fine.viscosity, fine.color_gradient, fine.color_laplacian}) {
+        EXPECT_NEAR(moment, 1.0, 3e-3);
+    }
+}
+
+TEST(LatticeMoments, KnownValues)
+{
+    // Sums by hand: a lattice of H = 1.5 d has neighbors at d (6) and sqrt(2) d (12) only.
+    const double first = 1.0 / 1.5;
+    const double second = std::sqrt(2.0) / 1.5;
+    const LatticeMoments paper = lattice_moments(shared::KERNEL_PAPER, 1.5, 1.0);
+    const double w0 = 315.0 / (64.0 * PI * std::pow(1.5, 3));
+    const auto poly6 = [](double q) {
+        return std::pow(1.0 - q * q, 3);
+    };
+    EXPECT_NEAR(paper.density, w0 * (1.0 + 6.0 * poly6(first) + 12.0 * poly6(second)), 1e-12);
+    const double g0 = 45.0 / (PI * std::pow(1.5, 4));
+    EXPECT_NEAR(paper.gradient,
+                g0 * (2.0 * std::pow(1.0 - first, 2) + 8.0 / std::sqrt(2.0) * std::pow(1.0 - second, 2)), 1e-12);
+
+    EXPECT_NEAR(lattice_moments(shared::KERNEL_PAPER, 2.3, 1.0).viscosity, 0.93, 5e-3);
+    EXPECT_NEAR(lattice_moments(shared::KERNEL_PAPER, 2.6, 1.0).viscosity, 1.07, 5e-3);
+    EXPECT_NEAR(lattice_moments(shared::KERNEL_PAPER, 3.0, 1.0).viscosity, 0.96, 5e-3);
+    EXPECT_NEAR(lattice_moments(shared::KERNEL_PAPER, 2.0, 1.0).gradient, 0.96, 5e-3);
+    EXPECT_NEAR(lattice_moments(shared::KERNEL_WENDLAND, 2.6, 1.0).density, 1.010, 5e-4);
+}
+
+TEST(LatticeMoments, RefusesSupportRatiosThatHaveNoMeaning)
+{
+    EXPECT_THROW(static_cast<void>(lattice_moments(shared::KERNEL_PAPER, 1.0, 1.0)), Error);
+    EXPECT_THROW(static_cast<void>(lattice_moments(shared::KERNEL_PAPER, 8.1, 1.0)), Error);
+    EXPECT_THROW(static_cast<void>(lattice_moments(shared::KERNEL_PAPER, 1.0, 0.0)), Error);
+    EXPECT_THROW(static_cast<void>(lattice_moments(shared::KERNEL_PAPER, 1.0, -0.5)), Error);
+    EXPECT_THROW(static_cast<void>(lattice_moments(shared::KERNEL_PAPER, std::nan(""), 1.0)), Error);
+}
+
+// --- walls
+// ------------------------------------------------------------------------------------------------------------
+
+// Integral over the half space beyond a plane at that distance: of f(r), or of f(r) z/r.
+double half_space_integral(double distance, double h, const std::function<double(double)>& f)
+{
+    const auto plane = [&](double z) {
+        return integrate(
+            std::abs(z), h, [&](double r) { return 2.0 * PI * r * f(r); }, 100);
+    };
+    return distance < 0.0 ? integrate(distance, 0.0, plane) + integrate(0.0, h, plane) : integrate(distance, h, plane);
+}
+
+TEST_P(SphKernel, WallIntegralsMatchQuadrature)
+{
+    for (const double q : {-0.93, -0.5, -0.1, 0.0, 0.05, 0.25, 0.5, 0.77, 0.95}) {
+        const double s = q * h;
+        EXPECT_NEAR(wall_density_integral(kernel(), s, h),
+                    half_space_integral(s, h, [&](double r) { return density(r); }), 1e-8)
+            << "q = " << q;
+        EXPECT_NEAR(wall_viscosity_integral(kernel(), s, h) * h * h,
+                    half_space_integral(s, h, [&](double r) { return viscosity(r); }) * h * h, 1e-6)
+            << "q = " << q;
+        // The component of the gradient along the normal: W'(r) z/r.
+        const auto slice = [&](double z) {
+            return integrate(
+                std::abs(z), h, [&](double r) { return -2.0 * PI * z * gradient(r); }, 100);
+        };
+        const double expected = q < 0.0 ? integrate(s, 0.0, slice) + integrate(0.0, h, slice) : integrate(s, h, slice);
+        EXPECT_NEAR(wall_gradient_integral(kernel(), s, h) * h, expected * h, 1e-6) << "q = " << q;
+    }
+}
+
+TEST_P(SphKernel, WallIntegralsFarAway)
+{
+    EXPECT_EQ(wall_density_integral(kernel(), h, h), 0.0);
+    EXPECT_EQ(wall_density_integral(kernel(), -h, h), 1.0);
+    EXPECT_EQ(wall_density_integral(kernel(), -2.0 * h, h), 1.0);
+    EXPECT_EQ(wall_gradient_integral(kernel(), h, h), 0.0);
+    EXPECT_EQ(wall_gradient_integral(kernel(), -h, h), 0.0);
+    EXPECT_EQ(wall_viscosity_integral(kernel(), h, h), 0.0);
+}
+
+TEST_P(SphKernel, FirstLayerOfALatticeHasRestDensityAndNoNetForce)
+{
+    for (const double ratio : {1.3, 2.0, 2.3, 2.6, 3.0, 4.0}) {
+        const double d = h / ratio;
+        const double cell = d * d * d;
+        const LatticeMoments moments = lattice_moments(kernel(), h, d);
+        const WallCalibration wall = calibrate_wall(kernel(), h, d);
+        double sum = 0.0;
+        double force = 0.0; // of the half lattice that is there, per unit of 2 p / rho
+        for (int x = 0; x <= 4; ++x) {
+            for (int y = -4; y <= 4; ++y) {
+                for (int z = -4; z <= 4; ++z) {
+                    const double r = d * std::sqrt(static_cast<double>(x * x + y * y + z * z));
+                    sum += cell * density(r) / moments.density;
+                    force += r > 0.0 ? cell * gradient(r) / moments.gradient * x * d / r : 0.0;
+                }
+            }
+        }
+        sum += wall_density_integral(kernel(), 0.5 * d + wall.density_offset, h);
+        EXPECT_NEAR(sum, 1.0, 1e-12) << "H/d = " << ratio;
+        EXPECT_NEAR((force + wall.gradient_scale * wall_gradient_integral(kernel(), 0.5 * d, h)) * h, 0.0, 1e-12)
+            << "H/d = " << ratio;
+        EXPECT_LT(std::abs(wall.density_offset), 0.25 * d) << "H/d = " << ratio;
+    }
+}
+
+// The integral of W over the quadrant beyond two perpendicular walls, at distances a and b.
+double corner_overlap(std::uint32_t kernel, double a, double b, double h)
+{
+    const double scale = continuum_scales(kernel, h).density;
+    const auto column = [&](double x, double y) {
+        const double squared = h * h - x * x - y * y;
+        return squared <= 0.0
+                   ? 0.0
+                   : integrate(
+                         0.0, std::sqrt(squared),
+                         [&](double z) {
+                             return 2.0 * scale * density_shape(kernel, std::sqrt(x * x + y * y + z * z) / h);
+                         },
+                         20);
+    };
+    return integrate(
+        a, h,
+        [&](double x) {
+            return integrate(
+                b, h, [&](double y) { return column(x, y); }, 40);
+        },
+        40);
+}
+
+TEST_P(SphKernel, ProductOfWallsIsWithinOnePercentOfTheCorner)
+{
+    for (double a = 0.0; a < 0.9; a += 0.15) {
+        for (double b = 0.0; b <= a; b += 0.15) {
+            const double wall_a = wall_density_integral(kernel(), a * h, h);
+            const double wall_b = wall_density_integral(kernel(), b * h, h);
+            const double truth = wall_a + wall_b - corner_overlap(kernel(), a * h, b * h, h);
+            EXPECT_NEAR(1.0 - (1.0 - wall_a) * (1.0 - wall_b), truth, 0.01)
+                << "distances " << a << " H and " << b << " H";
+        }
+    }
+}
+
+TEST_P(SphKernel, SetKernelScalesFillsTheParameters)
+{
+    shared::SphParams params{};
+    params.support_radius = 0.05f;
+    params.speed_of_sound = 20.0f;
+    const double d = 0.025;
+    set_kernel_scales(params, kernel(), d);
+    const LatticeMoments moments = lattice_moments(kernel(), h, d);
+    const WallCalibration wall = calibrate_wall(kernel(), h, d);
+    const double e = 1e-6;
+    EXPECT_NEAR(params.density_scale * moments.density / scale.density, 1.0, e);
+    EXPECT_NEAR(params.gradient_scale * moments.gradient / scale.gradient, 1.0, e);
+    EXPECT_NEAR(params.viscosity_scale * moments.viscosity / scale.viscosity, 1.0, e);
+    EXPECT_NEAR(params.color_gradient_scale * moments.color_gradient / scale.color_gradient, 1.0, e);
+    EXPECT_NEAR(params.color_laplacian_scale * moments.color_laplacian / scale.color_laplacian, 1.0, e);
+    EXPECT_NEAR(params.wall_density_offset, wall.density_offset, e * d);
+    EXPECT_NEAR(params.wall_gradient_scale, wall.gradient_scale, e);
+    EXPECT_NEAR(params.contact_distance, 0.25 * d, e * d);
+    EXPECT_NEAR(params.contact_stiffness / 640000.0f, 1.0, e);
+    EXPECT_NEAR(params.contact_damping / 800.0f, 1.0, e);
+}
+
+} // namespace
+} // namespace meltpoint
