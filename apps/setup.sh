@@ -83,11 +83,12 @@ set_up() {
 
     # apt's package lists are fetched only where they are absent, or so old that the mirror has moved on.
     echo "Installing ${missing[*]}"
-    local get=(env DEBIAN_FRONTEND=noninteractive apt-get --quiet --quiet --option Dpkg::Use-Pty=0)
-    if ! { "${get[@]}" --simulate install "${missing[@]}" &&
-        as_root "${get[@]}" install --yes --no-install-recommends "${missing[@]}"; } >/dev/null 2>&1; then
-        { as_root "${get[@]}" update && as_root "${get[@]}" install --yes --no-install-recommends "${missing[@]}"; } >/dev/null ||
-            fail "apt-get could not install the missing packages: its reason stands above; most often there is no network"
+    local log=build/setup.log get=(env DEBIAN_FRONTEND=noninteractive apt-get --quiet --quiet --option Dpkg::Use-Pty=0)
+    local install_missing=("${get[@]}" install --yes --no-install-recommends "${missing[@]}")
+    mkdir -p build
+    if ! { "${get[@]}" --simulate install "${missing[@]}" && as_root "${install_missing[@]}"; } >"$log" 2>&1; then
+        { as_root "${get[@]}" update && as_root "${install_missing[@]}"; } >"$log" 2>&1 ||
+            fail "apt-get could not install the missing packages, most likely for want of a network (all it said is in $log): $(grep -m 1 '^[EW]: ' "$log" || tail -n 1 "$log")"
     fi
 }
 
