@@ -1,0 +1,331 @@
+#include "scene/key_table.h"
+
+#include <string>
+#include <type_traits>
+#include <utility>
+
+namespace meltpoint {
+
+namespace {
+
+// --- C++ types <-> values
+// ---------------------------------------------------------------------------------------------
+
+double number(const SceneValue& value)
+{
+    const auto* integer = std::get_if<std::int64_t>(&value.data);
+    return integer != nullptr ? static_cast<double>(*integer) : std::get<double>(value.data);
+}
+
+const SceneValue::Array& array(const SceneValue& value)
+{
+    return std::get<SceneValue::Array>(value.data);
+}
+
+/// How one type of field is written; Codec<T>::kind, to_value and from_value.
+template <class T>
+struct Codec;
+
+template <>
+struct Codec<bool> {
+    static constexpr ValueKind kind = ValueKind::Boolean;
+    static SceneValue to_value(bool field) { return {field}; }
+    static bool from_value(const SceneValue& value) { return std::get<bool>(value.data); }
+};
+
+template <>
+struct Codec<std::string> {
+    static constexpr ValueKind kind = ValueKind::Text;
+    static SceneValue to_value(const std::string& field) { return {field}; }
+    static std::string from_value(const SceneValue& value) { return std::get<std::string>(value.data); }
+};
+
+template <class T>
+    requires(std::is_unsigned_v<T> && !std::is_same_v<T, bool>)
+struct Codec<T> {
+    static constexpr ValueKind kind = ValueKind::Integer;
+    static SceneValue to_value(T field)
+    {
+        // TOML has no whole numbers past 2^63: as a double such a field is reported as not allowed.
+        return std::in_range<std::int64_t>(field) ? SceneValue{static_cast<std::int64_t>(field)}
+                                                  : SceneValue{static_cast<double>(field)};
+    }
+    static T from_value(const SceneValue& value) { return static_cast<T>(std::get<std::int64_t>(value.data)); }
+};
+
+template <>
+struct Codec<float> {
+    static constexpr ValueKind kind = ValueKind::Number;
+    static SceneValue to_value(float field) { return {static_cast<double>(field)}; }
+    static float from_value(const SceneValue& value) { return static_cast<float>(number(value)); }
+};
+
+template <int N>
+struct Codec<glm::vec<N, float>> {
+    static constexpr ValueKind kind = N == 2 ? ValueKind::Vector2 : ValueKind::Vector3;
+    static SceneValue to_value(const glm::vec<N, float>& field)
+    {
+        SceneValue::Array values;
+        for (int i = 0; i < N; ++i) {
+            values.push_back(Codec<float>::to_value(field[i]));
+        }
+        return {values};
+    }
+    static glm::vec<N, float> from_value(const SceneValue& value)
+    {
+        glm::vec<N, float> field;
+        for (int i = 0; i < N; ++i) {
+            field[i] = Codec<float>::from_value(array(value)[static_cast<std::size_t>(i)]);
+        }
+        return field;
+    }
+};
+
+template <>
+struct Codec<glm::mat3> { // rows in the file, columns in glm
+    static constexpr ValueKind kind = ValueKind::Matrix3;
+    static SceneValue to_value(const glm::mat3& field)
+    {
+        const glm::mat3 rows = glm::transpose(field);
+        return {SceneValue::Array{Codec<glm::vec3>::to_value(rows[0]), Codec<glm::vec3>::to_value(rows[1]),
+                                  Codec<glm::vec3>::to_value(rows[2])}};
+    }
+    static glm::mat3 from_value(const SceneValue& value)
+    {
+        const SceneValue::Array& rows = array(value);
+        return glm::transpose(glm::mat3(Codec<glm::vec3>::from_value(rows[0]), Codec<glm::vec3>::from_value(rows[1]),
+                                        Codec<glm::vec3>::from_value(rows[2])));
+    }
+};
+
+template <class T>
+struct Codec<std::optional<T>> {
+    static constexpr ValueKind kind = Codec<T>::kind;
+    static SceneValue to_value(const std::optional<T>& field)
+    {
+        return field ? Codec<T>::to_value(*field) : SceneValue{std::string("auto")};
+    }
+    static std::optional<T> from_value(const SceneValue& value)
+    {
+        return is_auto(value) ? std::nullopt : std::optional<T>(Codec<T>::from_value(value));
+    }
+};
+
+template <class T>
+constexpr bool is_optional = false;
+template <class T>
+constexpr bool is_optional<std::optional<T>> = true;
+
+// --- building keys
+// ----------------------------------------------------------------------------------------------------
+
+struct Range {
+    double min = 0.0;
+    double max = 0.0;
+};
+
+template <class Owner, class Field>
+using FieldType = std::remove_cvref_t<std::invoke_result_t<Field, Owner&>>;
+
+/// A key whose type follows from its field.
+template <class Owner, class Field>
+Key<Owner> key(std::string_view name, Field field, std::string_view unit, Range range, std::string_view description)
+{
+    using T = FieldType<Owner, Field>;
+    return {.name = name,
+            .unit = unit,
+            .description = description,
+            .rule = {Codec<T>::kind, range.min, range.max, {}, is_optional<T>},
+            .get = [field](const Owner& owner) { return Codec<T>::to_value(field(owner)); },
+            .set =
+                [field](Owner& owner, const SceneValue& value) {
+                    field(owner) = Codec<T>::from_value(value);
+                }};
+}
+
+/// A key of true or false.
+template <class Owner, class Field>
+Key<Owner> flag(std::string_view name, Field field, std::string_view description)
+{
+    return key<Owner>(name, field, "", {}, description);
+}
+
+/// A key whose value is one of some words.
+template <class Owner, class Field>
+Key<Owner> choice(std::string_view name, Field field,
+                  std::vector<std::pair<std::string_view, FieldType<Owner, Field>>> words, std::string_view description)
+{
+    Key<Owner> result{.name = name, .description = description, .rule = {.kind = ValueKind::Choice}};
+    for (const auto& [word, meaning] : words) {
+        result.rule.choices.push_back(word);
+    }
+    result.get = [field, words](const Owner& owner) {
+        for (const auto& [word, meaning] : words) {
+            if (meaning == field(owner)) {
+                return SceneValue{std::string(word)};
+            }
+        }
+        return SceneValue{std::string("?")}; // no enumerator of the field: the rule turns it down
+    };
+    result.set = [field, words](Owner& owner, const SceneValue& value) {
+        for (const auto& [word, meaning] : words) {
+            if (word == std::get<std::string>(value.data)) {
+                field(owner) = meaning;
+            }
+        }
+    };
+    return result;
+}
+
+/// Which of FluidBody's shapes a fluid has; setting it starts that shape afresh.
+FluidKey shape_key()
+{
+    return {.name = "shape",
+            .required = true,
+            .description = "where the fluid starts; each shape has keys of its own",
+            .rule = {.kind = ValueKind::Choice, .choices = {"block", "sphere", "mesh"}},
+            .get = [](const FluidBody& body) { return SceneValue{std::string(shape_name(body))}; },
+            .set =
+                [](FluidBody& body, const SceneValue& value) {
+                    const auto& name = std::get<std::string>(value.data);
+                    if (name == "block") {
+                        body.shape = BlockShape{};
+                    } else if (name == "sphere") {
+                        body.shape = SphereShape{};
+                    } else {
+                        body.shape = MeshShape{};
+                    }
+                }};
+}
+
+FluidKey required_of(std::string_view shape, FluidKey fluid_key)
+{
+    fluid_key.shape = shape;
+    fluid_key.required = true;
+    return fluid_key;
+}
+
+FluidKey optional_of(std::string_view shape, FluidKey fluid_key)
+{
+    fluid_key.shape = shape;
+    return fluid_key;
+}
+
+// --- the tables
+// -------------------------------------------------------------------------------------------------------
+
+// clang-format off
+#define FIELD(member) [](auto& owner) -> auto& { return owner.member; }
+#define SHAPE_FIELD(Shape, member) [](auto& body) -> auto& { return std::get<Shape>(body.shape).member; }
+
+constexpr Range PLACE{-1e4, 1e4};  // m, from the origin
+constexpr Range SPEED{-1e5, 1e5};  // m/s
+constexpr Range UNIT{0.0, 1.0};
+
+std::vector<SceneKey> make_scene_keys()
+{
+    const auto k = [](auto... arguments) { return key<Scene>(arguments...); };
+    return {
+        k("name", FIELD(name), "", Range{1, 200}, "what to call the scene"),
+        k("description", FIELD(description), "", Range{0, 10000}, "what it shows"),
+        choice<Scene>("solver", FIELD(solver), {{"wcsph", Solver::Wcsph}}, "weakly compressible SPH"),
+        choice<Scene>("kernel", FIELD(kernel), {{"paper", SphKernel::Paper}, {"wendland", SphKernel::Wendland}},
+                      "paper: poly6, spiky and viscosity kernels (Mueller et al. 2003), fast, for pictures; wendland: C2, for truth, best with particles.support_ratio = 3"),
+        k("seed", FIELD(seed), "", Range{0, 1e18},
+          "of all random numbers: the same seed gives the same run"),
+
+        k("domain.min", FIELD(domain.min), "m", PLACE, "lowest corner of the box that holds everything"),
+        k("domain.max", FIELD(domain.max), "m", PLACE, "highest corner"),
+        flag<Scene>("domain.walls", FIELD(domain.walls), "all six faces are walls; without, leaving the domain ends the run"),
+        k("domain.wall_viscosity", FIELD(domain.wall_viscosity), "Pa s", Range{0, 1e4}, "of fluid against walls; 0 lets it slip freely"),
+
+        k("particles.spacing", FIELD(particles.spacing), "m", Range{1e-5, 100}, "distance d of neighboring particles at rest; halving it makes eight times as many"),
+        k("particles.support_ratio", FIELD(particles.support_ratio), "", Range{1.25, 4}, "support radius H of the kernels, in spacings"),
+
+        k("physics.gravity", FIELD(physics.gravity), "m/s^2", Range{-1e4, 1e4}, "acceleration of everything"),
+        k("physics.viscosity", FIELD(physics.viscosity), "Pa s", Range{0, 1e4}, "dynamic; water has 0.001, but at this resolution splashes look right with more"),
+        k("physics.surface_tension", FIELD(physics.surface_tension), "N/m", Range{0, 1e4}, "of the model of Mueller et al. 2003: a look, not a measured force"),
+        k("physics.tension_threshold", FIELD(physics.tension_threshold), "", Range{0, 100}, "on the color gradient times H: particles below it are inside and feel no tension"),
+        choice<Scene>("physics.state_equation", FIELD(physics.state_equation), {{"linear", StateEquation::Linear}, {"tait", StateEquation::Tait}},
+                      "pressure from density: linear in it, or to the power of gamma"),
+        k("physics.speed_of_sound", FIELD(physics.speed_of_sound), "m/s", Range{1e-3, 1e5}, "stiffness of the fluid; auto: 10 times the speed expected of this scene"),
+        k("physics.gamma", FIELD(physics.gamma), "", Range{1, 20}, "exponent of the Tait equation"),
+        k("physics.background_pressure", FIELD(physics.background_pressure), "Pa", Range{0, 1e9}, "added to every pressure"),
+        flag<Scene>("physics.clamp_pressure", FIELD(physics.clamp_pressure), "no pressure below zero, which would clump particles at a free surface"),
+
+        k("time.dt", FIELD(time.dt), "s", Range{1e-9, 1}, "step; auto: the largest within the bounds of stability"),
+        k("time.frame_rate", FIELD(time.frame_rate), "1/s", Range{1e-2, 1e6}, "frames in a second of simulated time"),
+        k("time.frames", FIELD(time.frames), "", Range{1, 1e6}, "number of frames, frame 0 (the initial state) included"),
+
+        choice<Scene>("camera.projection", FIELD(camera.projection), {{"perspective", Projection::Perspective}, {"orthographic", Projection::Orthographic}},
+                      "orthographic: a 2D view without foreshortening"),
+        k("camera.eye", FIELD(camera.eye), "m", PLACE, "where the camera is; auto: where it sees the whole domain"),
+        k("camera.target", FIELD(camera.target), "m", PLACE, "what it looks at; auto: the center of the domain's lower half"),
+        k("camera.up", FIELD(camera.up), "", PLACE, "the direction that is up in the picture; of any length but 0"),
+        k("camera.field_of_view", FIELD(camera.field_of_view), "degrees", Range{1, 170}, "vertical, of the perspective camera"),
+        k("camera.view_height", FIELD(camera.view_height), "m", Range{1e-4, 1e5}, "of the orthographic camera; auto: the domain's height"),
+
+        k("render.width", FIELD(render.width), "pixels", Range{16, 8192}, "of a frame"),
+        k("render.height", FIELD(render.height), "pixels", Range{16, 8192}, "of a frame"),
+        choice<Scene>("render.color", FIELD(render.color), {{"material", ColorMode::Material}, {"density", ColorMode::Density}, {"speed", ColorMode::Speed}, {"pressure", ColorMode::Pressure}},
+                      "what the colors show"),
+        flag<Scene>("render.legend", FIELD(render.legend), "a color scale, drawn in every mode but material"),
+        k("render.color_range", FIELD(render.color_range), "kg/m^3, m/s or Pa", Range{-1e12, 1e12}, "[lowest, highest] of the color scale; auto: fixed, from the scene"),
+        flag<Scene>("render.floor", FIELD(render.floor), "a ground plane at the domain's lowest face"),
+        k("render.splat_radius", FIELD(render.splat_radius), "spacings", Range{0.1, 5}, "of a fluid particle's sphere"),
+        k("render.background", FIELD(render.background), "linear RGB", UNIT, "color behind everything"),
+    };
+}
+
+std::vector<FluidKey> make_fluid_keys()
+{
+    const auto k = [](auto... arguments) { return key<FluidBody>(arguments...); };
+    return {
+        shape_key(),
+        required_of("block", k("min", SHAPE_FIELD(BlockShape, min), "m", PLACE, "lowest corner")),
+        required_of("block", k("max", SHAPE_FIELD(BlockShape, max), "m", PLACE, "highest corner")),
+        required_of("sphere", k("center", SHAPE_FIELD(SphereShape, center), "m", PLACE, "center")),
+        required_of("sphere", k("radius", SHAPE_FIELD(SphereShape, radius), "m", Range{1e-5, 1e4}, "radius")),
+        required_of("mesh", k("mesh", SHAPE_FIELD(MeshShape, mesh), "", Range{1, 4096},
+            "a mesh file, its path relative to the scene file, or builtin:teapot, builtin:sphere, builtin:cube, builtin:torus")),
+        required_of("mesh", k("position", SHAPE_FIELD(MeshShape, position), "m", PLACE, "where the center of the mesh's bounding box goes")),
+        optional_of("mesh", k("size", SHAPE_FIELD(MeshShape, size), "m", Range{1e-4, 1e4}, "largest extent after scaling; auto: the mesh's own units are meters")),
+        optional_of("mesh", k("rotation", SHAPE_FIELD(MeshShape, rotation), "degrees", Range{-360, 360}, "about x, then y, then z, about its center")),
+        k("rest_density", FIELD(rest_density), "kg/m^3", Range{1e-3, 1e5}, "density without pressure"),
+        k("velocity", FIELD(velocity), "m/s", SPEED, "at the start, of the whole body"),
+        k("velocity_gradient", FIELD(velocity_gradient), "1/s", SPEED, "rows of a matrix; the matrix times the position adds to the velocity"),
+        k("spin", FIELD(spin), "rad/s", SPEED, "spin x (position - spin_center) adds to the velocity"),
+        k("spin_center", FIELD(spin_center), "m", PLACE, "what it spins about; auto: the body's center"),
+        k("color", FIELD(color), "linear RGB", UNIT, "in render.color = \"material\""),
+    };
+}
+
+#undef SHAPE_FIELD
+#undef FIELD
+// clang-format on
+
+} // namespace
+
+std::span<const SceneKey> scene_keys()
+{
+    static const std::vector<SceneKey> keys = make_scene_keys();
+    return keys;
+}
+
+std::span<const FluidKey> fluid_keys()
+{
+    static const std::vector<FluidKey> keys = make_fluid_keys();
+    return keys;
+}
+
+std::string_view shape_name(const FluidBody& body)
+{
+    struct Name {
+        std::string_view operator()(const BlockShape&) const { return "block"; }
+        std::string_view operator()(const SphereShape&) const { return "sphere"; }
+        std::string_view operator()(const MeshShape&) const { return "mesh"; }
+    };
+    return std::visit(Name{}, body.shape);
+}
+
+} // namespace meltpoint

@@ -1,0 +1,195 @@
+#include "scene/scene_check.h"
+
+#include <algorithm>
+
+#include <fmt/format.h>
+
+#include "core/error.h"
+#include "scene/key_table.h"
+#include "scene/materials.h"
+#include "shared/sph_params.h"
+
+namespace meltpoint {
+
+namespace {
+
+// A shape may stick out of the domain by this fraction of the domain, so that a sphere of radius 0.3 at height 0.3
+// touches the floor at 0 although 0.3f - 0.3f is no safe bet after other arithmetic.
+constexpr float ROUNDING = 1e-5f;
+
+constexpr std::size_t MOST_FLUIDS = 1024;
+
+std::string text(const glm::vec3& v)
+{
+    return fmt::format("[{}, {}, {}]", v.x, v.y, v.z);
+}
+
+class SceneChecker {
+public:
+    SceneChecker(const Scene& scene, const KeyLocator& locate) : scene_(scene), locate_(locate) {}
+
+    void check() const
+    {
+        check_keys();
+        check_domain();
+        check_time();
+        check_camera();
+        check_render();
+        check_fluids();
+    }
+
+private:
+    template <class... Args>
+    [[noreturn]] void fail(std::string_view key, fmt::format_string<Args...> format, Args&&... args) const
+    {
+        const std::string where = locate_ ? locate_(key) : "scene " + to_toml({scene_.name});
+        throw input_error("{}: key \"{}\" {}", where, key, fmt::format(format, std::forward<Args>(args)...));
+    }
+
+    template <class Owner>
+    void check_key(const Key<Owner>& key, const std::string& prefix, const Owner& owner) const
+    {
+        const SceneValue value = key.get(owner);
+        if (!accepts(key.rule, value)) {
+            fail(prefix + std::string(key.name), "{}", complaint(key.rule, key.unit, value));
+        }
+    }
+
+    void check_keys() const
+    {
+        for (const SceneKey& key : scene_keys()) {
+            check_key(key, "", scene_);
+        }
+        for (std::size_t i = 0; i < scene_.fluids.size(); ++i) {
+            for (const FluidKey& key : fluid_keys()) {
+                if (key.shape.empty() || key.shape == shape_name(scene_.fluids[i])) {
+                    check_key(key, fmt::format("fluid.{}.", i), scene_.fluids[i]);
+                }
+            }
+        }
+    }
+
+    void check_box(const std::string& prefix, const glm::vec3& min, const glm::vec3& max) const
+    {
+        if (!glm::all(glm::lessThan(min, max))) {
+            fail(prefix + "max", "is {}, but must be above {}min = {} in x, y and z", text(max), prefix, text(min));
+        }
+    }
+
+    void check_domain() const
+    {
+        const DomainSettings& domain = scene_.domain;
+        check_box("domain.", domain.min, domain.max);
+        const glm::vec3 size = domain.max - domain.min;
+        const float smallest = std::min({size.x, size.y, size.z});
+        if (scene_.particles.spacing > smallest) {
+            fail("particles.spacing", "is {} m, but must be at most the domain's smallest extent, {} m",
+                 scene_.particles.spacing, smallest);
+        }
+    }
+
+    void check_time() const
+    {
+        const TimeSettings& time = scene_.time;
+        if (time.dt && *time.dt * time.frame_rate > 1.0f + ROUNDING) {
+            fail("time.dt", "is {} s, but must be at most the time between two frames, 1/{} s", *time.dt,
+                 time.frame_rate);
+        }
+    }
+
+    void check_camera() const
+    {
+        const CameraSettings& camera = scene_.camera;
+        if (camera.up == glm::vec3(0.0f)) {
+            fail("camera.up", "is [0, 0, 0], but must have a direction");
+        }
+        if (!camera.eye || !camera.target) {
+            return;
+        }
+        const glm::vec3 view = *camera.target - *camera.eye;
+        if (view == glm::vec3(0.0f)) {
+            fail("camera.target", "is {}, but must differ from camera.eye", text(*camera.target));
+        }
+        if (glm::length(glm::cross(glm::normalize(view), glm::normalize(camera.up))) < ROUNDING) {
+            fail("camera.up", "is {}, but must not be parallel to the line from camera.eye to camera.target",
+                 text(camera.up));
+        }
+    }
+
+    void check_render() const
+    {
+        const std::optional<glm::vec2>& range = scene_.render.color_range;
+        if (range && !(range->x < range->y)) {
+            fail("render.color_range", "is [{}, {}], but its first number must be below its second", range->x,
+                 range->y);
+        }
+    }
+
+    void check_fluids() const
+    {
+        if (scene_.fluids.empty()) {
+            fail("fluid", "is missing: a scene has at least one [[fluid]]");
+        }
+        if (scene_.fluids.size() > MOST_FLUIDS) {
+            fail("fluid", "is there {} times, but a scene has at most {} fluids", scene_.fluids.size(), MOST_FLUIDS);
+        }
+        for (std::size_t i = 0; i < scene_.fluids.size(); ++i) {
+            const std::string prefix = fmt::format("fluid.{}.", i);
+            std::visit([&](const auto& shape) { check_shape(prefix, shape); }, scene_.fluids[i].shape);
+        }
+        const SceneMaterials materials = scene_materials(scene_);
+        if (materials.materials.size() > shared::MAX_MATERIALS) {
+            const auto first_beyond = std::ranges::find(materials.of_fluid, shared::MAX_MATERIALS);
+            fail(fmt::format("fluid.{}", first_beyond - materials.of_fluid.begin()),
+                 "makes {} different fluids (by rest density and color), but a scene has at most {}",
+                 materials.materials.size(), shared::MAX_MATERIALS);
+        }
+    }
+
+    void check_shape(const std::string& prefix, const BlockShape& block) const
+    {
+        check_box(prefix, block.min, block.max);
+        check_thickness(prefix + "max", block.max - block.min);
+        check_inside(prefix + "min", block.min, block.max);
+    }
+
+    void check_shape(const std::string& prefix, const SphereShape& sphere) const
+    {
+        check_thickness(prefix + "radius", glm::vec3(2.0f * sphere.radius));
+        check_inside(prefix + "center", sphere.center - sphere.radius, sphere.center + sphere.radius);
+    }
+
+    /// A mesh is checked once it is read.
+    void check_shape(const std::string&, const MeshShape&) const {}
+
+    void check_thickness(const std::string& key, const glm::vec3& extent) const
+    {
+        const float thinnest = std::min({extent.x, extent.y, extent.z});
+        if (thinnest < scene_.particles.spacing * (1.0f - ROUNDING)) {
+            fail(key, "makes the fluid {} m thin, but it must be at least particles.spacing = {} m to hold a particle",
+                 thinnest, scene_.particles.spacing);
+        }
+    }
+
+    void check_inside(const std::string& key, const glm::vec3& min, const glm::vec3& max) const
+    {
+        const DomainSettings& domain = scene_.domain;
+        const glm::vec3 slack = ROUNDING * (domain.max - domain.min);
+        if (glm::any(glm::lessThan(min, domain.min - slack)) || glm::any(glm::greaterThan(max, domain.max + slack))) {
+            fail(key, "puts the fluid in {} to {}, but it must lie inside the domain, {} to {}", text(min), text(max),
+                 text(domain.min), text(domain.max));
+        }
+    }
+
+    const Scene& scene_;
+    const KeyLocator& locate_;
+};
+
+} // namespace
+
+void validate_scene(const Scene& scene, const KeyLocator& locate)
+{
+    SceneChecker(scene, locate).check();
+}
+
+} // namespace meltpoint

@@ -1,0 +1,101 @@
+#include "scene/scene_reference.h"
+
+#include <fmt/format.h>
+
+#include "scene/key_table.h"
+
+namespace meltpoint {
+
+namespace {
+
+constexpr std::string_view INTRODUCTION = R"(# Scenes
+
+A scene is a [TOML](https://toml.io) file: all that a run needs. `meltpoint render drop.toml` runs a file, `meltpoint render
+drop` the scene of this folder with that name, from anywhere. Start from a copy of one of these:
+
+- [teapot_drop.toml](teapot_drop.toml): a teapot of fluid falls and splashes. The default.
+- [dam_break.toml](dam_break.toml): a column of fluid collapses.
+- [drop.toml](drop.toml): a ball of fluid falls into a pool.
+
+Every key may be left out unless it is marked required. Quantities are in SI units, y is up, angles are in degrees. Where
+`"auto"` is allowed, the engine finds the value from the rest of the scene. Paths of meshes are relative to the scene's folder.
+
+`--set key=value` changes any key for one run, with the dotted name of the tables below and a TOML value:
+`--set physics.viscosity=0.1`, `--set domain.max=[1,2,1]`, `--set kernel=wendland`. Fluids count from 0:
+`--set fluid.0.velocity=[0,1,0]`. Paths of meshes are then relative to the folder in which the command runs.
+
+This page is generated from the table of keys that also reads and checks scenes (engine/scene/key_table.cpp).
+)";
+
+/// Text for a cell of a table, in which a bar would end the cell.
+std::string cell(std::string_view text)
+{
+    std::string escaped;
+    for (const char c : text) {
+        escaped += c == '|' ? std::string("\\|") : std::string(1, c);
+    }
+    return escaped;
+}
+
+template <class Owner>
+std::string row(const Key<Owner>& key, const Owner& defaults)
+{
+    const std::string default_value = key.required ? "required" : fmt::format("`{}`", to_toml(key.get(defaults)));
+    return fmt::format("| `{}` | {} | {} | {} |\n", key.name, default_value, cell(describe(key.rule, key.unit)),
+                       cell(key.description));
+}
+
+constexpr std::string_view HEADER = "\n| key | default | allowed | meaning |\n| --- | --- | --- | --- |\n";
+
+std::string_view table_of(std::string_view name)
+{
+    const std::size_t dot = name.find('.');
+    return dot == std::string_view::npos ? std::string_view{} : name.substr(0, dot);
+}
+
+/// A body of the shape that has this key, everything else at its default.
+FluidBody default_body(const FluidKey& key)
+{
+    FluidBody body;
+    if (!key.shape.empty()) {
+        fluid_keys().front().set(body, SceneValue{std::string(key.shape)});
+    }
+    return body;
+}
+
+std::string fluid_rows(std::string_view shape)
+{
+    std::string text{HEADER};
+    for (const FluidKey& key : fluid_keys()) {
+        if (key.shape == shape) {
+            text += row(key, default_body(key));
+        }
+    }
+    return text;
+}
+
+} // namespace
+
+std::string scene_reference_markdown()
+{
+    std::string text = std::string(INTRODUCTION) + "\n## Top level\n" + std::string(HEADER);
+    std::string_view table;
+    const Scene defaults;
+    for (const SceneKey& key : scene_keys()) {
+        if (table_of(key.name) != table) {
+            table = table_of(key.name);
+            text += fmt::format("\n## [{}]\n{}", table, HEADER);
+        }
+        text += row(key, defaults);
+    }
+    text +=
+        "\n## [[fluid]]\n\nOnce for each body of fluid, at least one. Fluids must not overlap. Here the keys of every "
+        "fluid; then those of its shape.\n";
+    text += fluid_rows("");
+    for (const std::string_view shape : fluid_keys().front().rule.choices) {
+        text += fmt::format("\n### shape = \"{}\"\n{}", shape, fluid_rows(shape));
+    }
+    return text;
+}
+
+} // namespace meltpoint

@@ -1,0 +1,640 @@
+#include "scene/scene_file.h"
+
+#include <algorithm>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <sstream>
+#include <utility>
+
+#include <unistd.h>
+
+#include <gtest/gtest.h>
+
+#include "core/error.h"
+#include "core/random.h"
+#include "scene/key_table.h"
+#include "scene/scene_check.h"
+#include "scene/scene_reference.h"
+
+namespace meltpoint {
+namespace {
+
+constexpr const char* BLOCK = R"(
+[[fluid]]
+shape = "block"
+min = [0, 0, 0]
+max = [0.5, 0.5, 0.5]
+)";
+
+Scene parse(const std::string& text, const std::vector<std::string>& overrides = {})
+{
+    return parse_scene(text, "test.toml", "/scenes", overrides);
+}
+
+/// The sentence with which an action fails; fails the test when it does not fail, or not as bad input.
+template <class Action>
+std::string complaint_of(const Action& action)
+{
+    try {
+        action();
+    } catch (const Error& error) {
+        EXPECT_EQ(error.kind(), ErrorKind::Input);
+        return error.what();
+    }
+    ADD_FAILURE() << "no error";
+    return {};
+}
+
+std::string error_of(const std::string& text, const std::vector<std::string>& overrides = {})
+{
+    return complaint_of([&] { parse(text, overrides); });
+}
+
+std::string error_with_block(const std::string& text, const std::vector<std::string>& overrides = {})
+{
+    return error_of(text + BLOCK, overrides);
+}
+
+std::string block_with(const std::string& overridden)
+{
+    return error_of(BLOCK, {overridden});
+}
+
+TEST(SceneFile, LeavesOutWhatIsNotSet)
+{
+    const Scene scene = parse(BLOCK);
+    EXPECT_EQ(scene.name, "untitled");
+    EXPECT_EQ(scene.physics.gravity, glm::vec3(0.0f, -9.81f, 0.0f));
+    EXPECT_FALSE(scene.time.dt.has_value());
+    ASSERT_EQ(scene.fluids.size(), 1u);
+    EXPECT_EQ(std::get<BlockShape>(scene.fluids[0].shape).max, glm::vec3(0.5f));
+}
+
+TEST(SceneFile, ReadsEveryType)
+{
+    const Scene scene = parse(R"(
+        name = "a \"name\" with ü"
+        kernel = "wendland"
+        seed = 1000000000000000000
+        [physics]
+        gravity = [0, -1, 0.5]
+        viscosity = 1      # a whole number where a number is due
+        clamp_pressure = false
+        speed_of_sound = 20.5
+        [time]
+        dt = "auto"
+        frames = 7
+        [render]
+        color_range = [0, 2.5]
+        [[fluid]]
+        shape = "sphere"
+        center = [0, 1, 0]
+        radius = 0.25
+        velocity_gradient = [[1, 2, 3], [4, 5, 6], [7, 8, 9]]
+        [[fluid]]
+        shape = "mesh"
+        mesh = "meshes/../cup.obj"
+        position = [0, 0.5, 0]
+        [[fluid]]
+        shape = "mesh"
+        mesh = "builtin:teapot"
+        position = [0, 0.5, 0]
+        size = 0.5
+    )");
+    EXPECT_EQ(scene.name, "a \"name\" with ü");
+    EXPECT_EQ(scene.kernel, SphKernel::Wendland);
+    EXPECT_EQ(scene.seed, 1000000000000000000u);
+    EXPECT_EQ(scene.physics.gravity, glm::vec3(0.0f, -1.0f, 0.5f));
+    EXPECT_EQ(scene.physics.viscosity, 1.0f);
+    EXPECT_FALSE(scene.physics.clamp_pressure);
+    EXPECT_EQ(scene.physics.speed_of_sound, 20.5f);
+    EXPECT_FALSE(scene.time.dt.has_value());
+    EXPECT_EQ(scene.time.frames, 7u);
+    EXPECT_EQ(scene.render.color_range, glm::vec2(0.0f, 2.5f));
+    ASSERT_EQ(scene.fluids.size(), 3u);
+    // Row 1 of the file times (1, 0, 0), (0, 1, 0), ...: the matrix acts on positions as it is written.
+    EXPECT_EQ(scene.fluids[0].velocity_gradient * glm::vec3(1.0f, 10.0f, 100.0f), glm::vec3(321.0f, 654.0f, 987.0f));
+    EXPECT_EQ(std::get<MeshShape>(scene.fluids[1].shape).mesh, "/scenes/cup.obj");
+    EXPECT_FALSE(std::get<MeshShape>(scene.fluids[1].shape).size.has_value());
+    EXPECT_EQ(std::get<MeshShape>(scene.fluids[2].shape).mesh, "builtin:teapot");
+}
+
+TEST(SceneFile, NamesUnknownKeys)
+{
+    EXPECT_EQ(error_with_block("[physics]\nviscosty = 1"),
+              "test.toml:2: key \"physics.viscosty\" is unknown; did you mean \"physics.viscosity\"?");
+    EXPECT_EQ(error_with_block("viscosity = 1"),
+              "test.toml:1: key \"viscosity\" is unknown; did you mean \"physics.viscosity\"?");
+    EXPECT_EQ(error_with_block("[phisics]"), "test.toml:1: key \"phisics\" is unknown; did you mean \"physics\"?");
+    EXPECT_EQ(error_with_block("[time]\nwarp = 1"),
+              "test.toml:2: key \"time.warp\" is unknown; \"time\" has the keys dt, frame_rate, frames");
+    EXPECT_EQ(
+        error_with_block("\"physics.viscosity\" = 1").find("test.toml:1: key \"\"physics.viscosity\"\" is unknown"),
+        0u);
+    EXPECT_EQ(error_of(std::string(BLOCK) + "radios = 1"),
+              "test.toml:6: key \"fluid.0.radios\" is unknown; did you mean \"fluid.0.radius\"?");
+}
+
+TEST(SceneFile, NamesWrongTypes)
+{
+    EXPECT_EQ(error_with_block("[physics]\nviscosity = \"thick\""),
+              "test.toml:2: key \"physics.viscosity\" is \"thick\", but must be a number from 0 to 10000 Pa s");
+    EXPECT_EQ(error_with_block("[physics]\ngravity = [0, -9.81]"),
+              "test.toml:2: key \"physics.gravity\" is [0, -9.81], "
+              "but must be [x, y, z], each from -10000 to 10000 m/s^2");
+    EXPECT_EQ(error_with_block("[time]\nframes = 2.0"),
+              "test.toml:2: key \"time.frames\" is 2.0, but must be a whole number from 1 to 1000000");
+    EXPECT_EQ(error_with_block("[domain]\nwalls = 1"),
+              "test.toml:2: key \"domain.walls\" is 1, but must be true or false");
+    EXPECT_EQ(error_with_block("name = 2024-01-01"),
+              "test.toml:1: key \"name\" is a date or time, but must be a string of 1 to 200 bytes of UTF-8");
+    EXPECT_EQ(error_with_block("kernel = \"wendlnd\""),
+              "test.toml:1: key \"kernel\" is \"wendlnd\", but must be \"paper\" "
+              "or \"wendland\"; did you mean \"wendland\"?");
+    EXPECT_EQ(error_with_block("[time]\ndt = \"soon\""),
+              "test.toml:2: key \"time.dt\" is \"soon\", but must be a number from 1e-09 to 1 s or \"auto\"");
+    EXPECT_EQ(error_with_block("[particles]\nspacing = \"auto\""),
+              "test.toml:2: key \"particles.spacing\" is \"auto\", but must be a number from 1e-05 to 100 m");
+    EXPECT_EQ(error_with_block("physics = 3"), "test.toml:1: key \"physics\" must be one table: [physics]");
+    EXPECT_EQ(error_with_block("[[physics]]"), "test.toml:1: key \"physics\" must be one table: [physics]");
+    EXPECT_EQ(error_with_block("[seed]"), "test.toml:1: key \"seed\" is a table, but must be a whole number from 0 to "
+                                          "1e+18");
+    EXPECT_EQ(error_of("[fluid]"),
+              "test.toml:1: key \"fluid\" must be an array of tables: [[fluid]], once for each fluid");
+    EXPECT_EQ(error_of("fluid = 3"),
+              "test.toml:1: key \"fluid\" must be an array of tables: [[fluid]], once for each fluid");
+}
+
+TEST(SceneFile, NamesValuesOutOfRange)
+{
+    EXPECT_EQ(error_with_block("[physics]\nviscosity = -1"),
+              "test.toml:2: key \"physics.viscosity\" is -1, but must be a number from 0 to 10000 Pa s");
+    EXPECT_NE(error_with_block("[physics]\nviscosity = nan").find("is nan, but must be"), std::string::npos);
+    EXPECT_NE(error_with_block("[physics]\ngravity = [0, -inf, 0]").find("is [0, -inf, 0], but must be"),
+              std::string::npos);
+    EXPECT_NE(error_with_block("[physics]\nviscosity = 1e300").find("is 1e+300, but must be"), std::string::npos);
+    EXPECT_NE(error_with_block("[particles]\nspacing = 1e-60").find("is 1e-60, but must be"), std::string::npos);
+    EXPECT_NE(error_with_block("seed = -1").find("is -1, but must be a whole number"), std::string::npos);
+    EXPECT_NE(error_with_block("name = \"\"").find("is \"\", but must be"), std::string::npos);
+    EXPECT_NE(error_with_block("name = \"\\u0000\"").find("key \"name\""), std::string::npos);
+    EXPECT_NE(error_with_block("name = \"" + std::string(300, 'x') + "\"").find("is 302 bytes long"),
+              std::string::npos);
+}
+
+TEST(SceneFile, NamesContradictions)
+{
+    EXPECT_EQ(error_with_block("[domain]\nmin = [0, 0, 0]\nmax = [1, 0, 1]"),
+              "test.toml:3: key \"domain.max\" is [1, 0, 1], but must be above domain.min = [0, 0, 0] in x, y and z");
+    EXPECT_EQ(error_with_block("[particles]\nspacing = 2.5"),
+              "test.toml:2: key \"particles.spacing\" is 2.5 m, but must be at most the domain's smallest extent, 2 m");
+    EXPECT_EQ(error_with_block("[camera]\nup = [0, 0, 0]"),
+              "test.toml:2: key \"camera.up\" is [0, 0, 0], but must have a direction");
+    EXPECT_EQ(error_with_block("[camera]\neye = [1, 2, 3]\ntarget = [1, 2, 3]"),
+              "test.toml:3: key \"camera.target\" is [1, 2, 3], but must differ from camera.eye");
+    EXPECT_NE(error_with_block("[camera]\neye = [0, 5, 0]\ntarget = [0, 0, 0]").find("must not be parallel"),
+              std::string::npos);
+    EXPECT_EQ(error_with_block("[render]\ncolor_range = [2, 2]"),
+              "test.toml:2: key \"render.color_range\" is [2, 2], but its first number must be below its second");
+    EXPECT_EQ(error_with_block("[time]\nframe_rate = 100\ndt = 0.02"),
+              "test.toml:3: key \"time.dt\" is 0.02 s, but must be at most the time between two frames, 1/100 s");
+    EXPECT_EQ(error_of(""), "test.toml: key \"fluid\" is missing: a scene has at least one [[fluid]]");
+}
+
+TEST(SceneFile, NamesMistakesOfShapes)
+{
+    EXPECT_EQ(error_of("[[fluid]]\ncolor = [1, 0, 0]"),
+              "test.toml:1: key \"fluid.0\" has no \"shape\", which must be \"block\", \"sphere\" or \"mesh\"");
+    EXPECT_EQ(
+        error_of("[[fluid]]\nshape = \"sphere\"\nradius = 0.5"),
+        "test.toml:1: key \"fluid.0\" is a sphere without \"center\", which must be [x, y, z], each from -10000 to "
+        "10000 m");
+    EXPECT_EQ(error_of(std::string(BLOCK) + "radius = 0.5"),
+              "test.toml:6: key \"fluid.0.radius\" belongs to shape = \"sphere\", but this fluid has shape = \"block\" "
+              "with the keys min, max");
+    EXPECT_EQ(
+        block_with("fluid.0.shape=ball"),
+        "override \"fluid.0.shape=ball\": key \"fluid.0.shape\" is \"ball\", but must be \"block\", \"sphere\" or "
+        "\"mesh\"");
+    EXPECT_NE(block_with("fluid.0.max=[0.5,-1,0.5]").find("must be above fluid.0.min"), std::string::npos);
+    EXPECT_NE(block_with("fluid.0.max=[0.5,0.01,0.5]").find("0.01 m thin, but it must be at least"), std::string::npos);
+    EXPECT_EQ(
+        block_with("fluid.0.min=[0,-0.5,0]"),
+        "override \"fluid.0.min=[0,-0.5,0]\": key \"fluid.0.min\" puts the fluid in [0, -0.5, 0] to [0.5, 0.5, 0.5], "
+        "but it must lie inside the domain, [-1, 0, -1] to [1, 2, 1]");
+    EXPECT_NE(error_of("[[fluid]]\nshape='sphere'\ncenter=[0,0.2,0]\nradius=0.21")
+                  .find("test.toml:3: key \"fluid.0.center\""),
+              std::string::npos);
+    EXPECT_NO_THROW(parse("[[fluid]]\nshape='sphere'\ncenter=[0,0.3,0]\nradius=0.3"));
+}
+
+TEST(SceneFile, LimitsDistinctFluids)
+{
+    std::string text;
+    for (int i = 0; i < 65; ++i) {
+        text += fmt::format("{}rest_density = {}\n", BLOCK, 1000 + i);
+    }
+    EXPECT_EQ(error_of(text),
+              "test.toml:386: key \"fluid.64\" makes 65 different fluids (by rest density and color), but a "
+              "scene has at most 64");
+    EXPECT_NO_THROW(parse(text, {"fluid.64.rest_density=1000"}));
+
+    std::string many;
+    for (int i = 0; i < 1025; ++i) {
+        many += BLOCK;
+    }
+    EXPECT_NE(error_of(many).find("at most 1024 fluids"), std::string::npos);
+}
+
+TEST(SceneFile, PassesOnSyntaxErrors)
+{
+    EXPECT_EQ(error_of("a = 1\nb = \n").find("test.toml:2:5: "), 0u);
+    EXPECT_EQ(error_of("[physics]\nviscosity = 1\nviscosity = 2").find("test.toml:3:"), 0u);
+    EXPECT_EQ(error_of("name = \"\xff\"").find("test.toml:1:"), 0u); // not UTF-8
+    EXPECT_EQ(error_of(std::string("\0\0\0", 3)).find("test.toml:1:"), 0u);
+}
+
+TEST(SceneFile, RefusesToNestWithoutEnd)
+{
+    std::string key = "a";
+    for (int i = 0; i < 200000; ++i) {
+        key += ".a";
+    }
+    EXPECT_NE(error_of("\n" + key + " = 1").find("test.toml:2: more than 64 dots"), std::string::npos);
+    EXPECT_NE(error_of("a = " + std::string(100000, '[')).find("test.toml:1:"), std::string::npos);
+
+    // As deep as tables go within the limits of both the parser and the line.
+    std::string nested = "1";
+    for (int i = 0; i < 120; ++i) {
+        nested = "{ " + key.substr(0, 127) + " = [\n" + nested + "\n] }";
+    }
+    EXPECT_NE(error_of("physics.gravity = " + nested).find("test.toml:1: key \"physics.gravity\" is a table"),
+              std::string::npos);
+    // Rows of dots are comments, not keys.
+    EXPECT_NO_THROW(parse("# " + std::string(500, '.') + "\n" + BLOCK));
+}
+
+TEST(SceneFile, AppliesOverridesInOrder)
+{
+    const Scene scene = parse(std::string("[physics]\nviscosity = 3\n") + BLOCK,
+                              {"physics.viscosity=0.1", "kernel=wendland", " time.frames = 10 ", "domain.max=[1,2.5,1]",
+                               "fluid.0.velocity=[0,1,0]", "name=\"x=y\"", "time.frames=11", "time.dt=auto",
+                               "particles={spacing=0.01,support_ratio=3}", "description=two words"});
+    EXPECT_EQ(scene.physics.viscosity, 0.1f);
+    EXPECT_EQ(scene.kernel, SphKernel::Wendland);
+    EXPECT_EQ(scene.time.frames, 11u);
+    EXPECT_EQ(scene.domain.max, glm::vec3(1.0f, 2.5f, 1.0f));
+    EXPECT_EQ(scene.fluids[0].velocity, glm::vec3(0.0f, 1.0f, 0.0f));
+    EXPECT_EQ(scene.name, "x=y");
+    EXPECT_EQ(scene.particles.support_ratio, 3.0f);
+    EXPECT_EQ(scene.description, "two words");
+}
+
+TEST(SceneFile, OverridesReplaceFluids)
+{
+    const Scene scene =
+        parse(BLOCK, {"fluid=[{shape='sphere',center=[0,1,0],radius=0.5},{shape='block',min=[0,0,0],max=[1,0.2,1]}]",
+                      "fluid.1.rest_density=500"});
+    ASSERT_EQ(scene.fluids.size(), 2u);
+    EXPECT_EQ(shape_name(scene.fluids[0]), "sphere");
+    EXPECT_EQ(scene.fluids[1].rest_density, 500.0f);
+    EXPECT_EQ(
+        parse(BLOCK, {"fluid.0={shape='mesh',mesh='/a/b.obj',position=[0,1,0]}", "fluid.0.size=0.5"}).fluids.size(),
+        1u);
+}
+
+TEST(SceneFile, NamesBadOverrides)
+{
+    EXPECT_EQ(block_with("physics.viscosty=1"),
+              "override \"physics.viscosty=1\": key \"physics.viscosty\" is unknown; did "
+              "you mean \"physics.viscosity\"?");
+    EXPECT_EQ(block_with("physics.viscosity=-1"),
+              "override \"physics.viscosity=-1\": key \"physics.viscosity\" is -1, but "
+              "must be a number from 0 to 10000 Pa s");
+    EXPECT_EQ(block_with("fluid.3.velocity=[0,0,0]"),
+              "override \"fluid.3.velocity=[0,0,0]\": key \"fluid.3.velocity\" is "
+              "unknown; the scene has 1 fluid, counted from 0");
+    EXPECT_NE(block_with("fluid.00.velocity=[0,0,0]").find("is unknown"), std::string::npos);
+    EXPECT_NE(block_with("fluid.99999999999999999999.velocity=[0,0,0]").find("is unknown"), std::string::npos);
+    EXPECT_EQ(block_with("nonsense"),
+              "override \"nonsense\" is not of the form key=value, as in physics.viscosity=0.1");
+    EXPECT_EQ(block_with("=1"), "override \"=1\" is not of the form key=value, as in physics.viscosity=0.1");
+    EXPECT_EQ(block_with("name="), "override \"name=\" has no value after \"=\"");
+    EXPECT_EQ(block_with("name=1\nseed=2"), "override \"name=1\\nseed=2\" has a line break");
+    EXPECT_EQ(block_with("domain.max=[1,2").find("override \"domain.max=[1,2\""), 0u);
+    EXPECT_EQ(block_with("a.b.c=1"), "override \"a.b.c=1\": key \"a.b.c\" is unknown; there is no table \"a.b\"");
+    EXPECT_EQ(block_with("fluid=[]"),
+              "override \"fluid=[]\": key \"fluid\" is missing: a scene has at least one [[fluid]]");
+    EXPECT_EQ(block_with("fluid.0=3").find("override \"fluid.0=3\": key \"fluid.0\" is unknown"), 0u);
+    EXPECT_EQ(block_with("domain.max=[1,0,1]").find("override \"domain.max=[1,0,1]\": key \"domain.max\" is [1, 0, 1]"),
+              0u);
+}
+
+TEST(SceneFile, TakesMeshesOfOverridesFromTheWorkingFolder)
+{
+    const std::string mesh = "[[fluid]]\nshape='mesh'\nmesh='a.obj'\nposition=[0,1,0]\n";
+    const auto mesh_of = [](const Scene& scene) {
+        return std::get<MeshShape>(scene.fluids[0].shape).mesh;
+    };
+    EXPECT_EQ(mesh_of(parse(mesh)), "/scenes/a.obj");
+    EXPECT_EQ(mesh_of(parse(mesh, {"fluid.0.mesh=b.obj"})), (std::filesystem::current_path() / "b.obj").string());
+    EXPECT_EQ(mesh_of(parse(mesh, {"fluid.0.mesh=builtin:cube"})), "builtin:cube");
+}
+
+/// A scratch folder, removed at the end.
+class SceneFileOnDisk : public testing::Test {
+protected:
+    SceneFileOnDisk() { std::filesystem::create_directories(folder_); }
+    ~SceneFileOnDisk() override { std::filesystem::remove_all(folder_); }
+
+    std::filesystem::path write(const std::string& name, const std::string& text) const
+    {
+        std::ofstream(folder_ / name, std::ios::binary) << text;
+        return folder_ / name;
+    }
+
+    const std::filesystem::path folder_ =
+        std::filesystem::temp_directory_path() / fmt::format("meltpoint_scene_{}", getpid());
+};
+
+TEST_F(SceneFileOnDisk, ReadsFiles)
+{
+    const auto path = write("a.toml", "[[fluid]]\nshape='mesh'\nmesh='a.obj'\nposition=[0,1,0]\n");
+    const Scene scene = read_scene_file(path, std::vector<std::string>{"seed=5"});
+    EXPECT_EQ(scene.seed, 5u);
+    EXPECT_EQ(std::get<MeshShape>(scene.fluids[0].shape).mesh, (folder_ / "a.obj").string());
+}
+
+TEST_F(SceneFileOnDisk, SaysWhyAFileCannotBeRead)
+{
+    const auto error = [](const std::filesystem::path& path) {
+        return complaint_of([&] { read_scene_file(path); });
+    };
+    EXPECT_EQ(error(folder_), folder_.string() + ": cannot read the scene: it is a folder");
+    EXPECT_EQ(error(folder_ / "none.toml"),
+              (folder_ / "none.toml").string() + ": cannot read the scene: No such file or directory");
+    EXPECT_NE(error(write("big.toml", std::string((16 << 20) + 1, ' '))).find("larger than 16 MiB"), std::string::npos);
+    EXPECT_NE(error(write("binary.toml", "\x89PNG\r\n\x1a\n")).find("binary.toml:1:"), std::string::npos);
+    EXPECT_NE(error("/dev/zero").find("larger than 16 MiB"), std::string::npos);
+}
+
+// --- the whole table
+// --------------------------------------------------------------------------------------------------
+
+float random_number(Random& random, const ValueRule& rule)
+{
+    // Odd digits, well inside the range, so that no pair of keys contradicts itself.
+    const double span = std::min(rule.max - rule.min, 2.0);
+    const double middle = rule.min <= 0.0 && rule.max >= 1.0 ? 0.0 : rule.min;
+    return static_cast<float>(middle + span * (0.1 + 0.3 * random.uniform()));
+}
+
+SceneValue random_value(Random& random, const ValueRule& rule)
+{
+    const auto number = [&] {
+        return SceneValue{static_cast<double>(random_number(random, rule))};
+    };
+    const auto vector = [&] {
+        return SceneValue{SceneValue::Array{number(), number(), number()}};
+    };
+    switch (rule.kind) {
+    case ValueKind::Boolean:
+        return {random.below(2) == 1};
+    case ValueKind::Integer:
+        return {static_cast<std::int64_t>(rule.min) +
+                random.below(static_cast<std::uint32_t>(std::min(rule.max - rule.min, 1e9)))};
+    case ValueKind::Number:
+        return number();
+    case ValueKind::Vector2: {
+        const double low = random_number(random, rule);
+        return {SceneValue::Array{{low}, {low + 1.0}}};
+    }
+    case ValueKind::Vector3:
+        return vector();
+    case ValueKind::Matrix3:
+        return {SceneValue::Array{vector(), vector(), vector()}};
+    case ValueKind::Text:
+        return {fmt::format("/\"\\\t\n\x01\x7f ü {}", random.next())};
+    case ValueKind::Choice:
+        return {std::string(rule.choices[random.below(static_cast<std::uint32_t>(rule.choices.size()))])};
+    }
+    return {};
+}
+
+template <class Owner>
+void randomize(Random& random, std::span<const Key<Owner>> keys, Owner& owner, std::string_view shape)
+{
+    for (const Key<Owner>& key : keys) {
+        if (key.name != "shape" && (key.shape.empty() || key.shape == shape)) {
+            key.set(owner, random_value(random, key.rule));
+        }
+    }
+}
+
+/// Any scene, every key away from its default, as far as keys may not contradict each other.
+Scene random_scene(std::uint64_t seed)
+{
+    Random random(seed);
+    Scene scene;
+    randomize(random, scene_keys(), scene, "");
+    scene.domain = {.min = glm::vec3(-100.25f),
+                    .max = glm::vec3(100.1f),
+                    .walls = scene.domain.walls,
+                    .wall_viscosity = scene.domain.wall_viscosity};
+    scene.particles.spacing = 0.0123f;
+    scene.time.dt = 1e-7f + 1e-8f * static_cast<float>(random.uniform());
+    scene.camera.target = *scene.camera.eye + glm::vec3(1.5f, 0.0f, 0.0f);
+    scene.camera.up = {0.1f, 0.9f, 0.0f};
+    for (const std::string_view shape : fluid_keys().front().rule.choices) {
+        FluidBody body;
+        fluid_keys().front().set(body, {std::string(shape)});
+        randomize(random, fluid_keys(), body, shape);
+        if (auto* block = std::get_if<BlockShape>(&body.shape)) {
+            block->max = block->min + 0.7f;
+        }
+        if (auto* sphere = std::get_if<SphereShape>(&body.shape)) {
+            sphere->radius = 0.1f + static_cast<float>(random.uniform());
+        }
+        scene.fluids.push_back(body);
+    }
+    return scene;
+}
+
+/// Names of the keys in which two scenes differ.
+std::vector<std::string> differences(const Scene& a, const Scene& b)
+{
+    std::vector<std::string> names;
+    for (const SceneKey& key : scene_keys()) {
+        if (key.get(a) != key.get(b)) {
+            names.emplace_back(key.name);
+        }
+    }
+    EXPECT_EQ(a.fluids.size(), b.fluids.size());
+    for (std::size_t i = 0; i < std::min(a.fluids.size(), b.fluids.size()); ++i) {
+        for (const FluidKey& key : fluid_keys()) {
+            if (key.shape.empty() || key.shape == shape_name(a.fluids[i])) {
+                if (key.get(a.fluids[i]) != key.get(b.fluids[i])) {
+                    names.push_back(fmt::format("fluid.{}.{}", i, key.name));
+                }
+            }
+        }
+    }
+    return names;
+}
+
+TEST(KeyTable, EveryKeyRoundTrips)
+{
+    for (std::uint64_t seed = 1; seed <= 100; ++seed) {
+        const Scene scene = random_scene(seed);
+        const std::string text = write_scene(scene);
+        EXPECT_EQ(differences(parse(text), scene), std::vector<std::string>{}) << text;
+        EXPECT_EQ(write_scene(parse(text)), text);
+    }
+    const Scene defaults = parse(BLOCK);
+    EXPECT_EQ(differences(parse(write_scene(defaults)), defaults), std::vector<std::string>{});
+}
+
+TEST(KeyTable, EveryKeyHasAFieldOfItsOwn)
+{
+    // Changing one key changes that key alone.
+    for (const SceneKey& key : scene_keys()) {
+        Random random(7);
+        Scene scene;
+        while (key.rule.choices.size() != 1 && key.get(scene) == key.get(Scene{})) {
+            key.set(scene, random_value(random, key.rule));
+        }
+        const std::vector<std::string> changed = differences(scene, Scene{});
+        EXPECT_EQ(changed.size(), key.rule.choices.size() == 1 ? 0u : 1u) << key.name;
+    }
+}
+
+TEST(KeyTable, DefaultsAreAllowed)
+{
+    for (const SceneKey& key : scene_keys()) {
+        EXPECT_TRUE(accepts(key.rule, key.get(Scene{})) || key.rule.choices.size() == 1) << key.name;
+        EXPECT_FALSE(key.description.empty()) << key.name;
+    }
+}
+
+TEST(SceneCheck, WorksOnScenesBuiltInCode)
+{
+    Scene scene;
+    scene.fluids.push_back({.shape = BlockShape{.min = glm::vec3(0.0f), .max = glm::vec3(1.0f)}});
+    EXPECT_NO_THROW(validate_scene(scene));
+    scene.seed = ~std::uint64_t{0};
+    EXPECT_NE(complaint_of([&] { validate_scene(scene); }).find("scene \"untitled\": key \"seed\" is 1.8446744e+19"),
+              std::string::npos);
+    EXPECT_THROW(write_scene(scene), Error);
+    scene.seed = 1;
+    scene.physics.gravity.y = std::numeric_limits<float>::quiet_NaN();
+    EXPECT_NE(complaint_of([&] { validate_scene(scene); }).find("is [0.0, nan, 0.0]"), std::string::npos);
+    scene.physics.gravity.y = 0.0f;
+    scene.name = "\xff";
+    EXPECT_NE(complaint_of([&] { validate_scene(scene); }).find("of UTF-8"), std::string::npos);
+    scene.name = "x";
+    scene.fluids[0].shape = MeshShape{.mesh = "", .position = glm::vec3(0.0f)};
+    EXPECT_NE(complaint_of([&] { validate_scene(scene); }).find("key \"fluid.0.mesh\""), std::string::npos);
+}
+
+// --- the scenes of apps/scenes
+// ----------------------------------------------------------------------------------------
+
+std::string file_text(const std::filesystem::path& path)
+{
+    std::ifstream file(path, std::ios::binary);
+    return {std::istreambuf_iterator<char>(file), {}};
+}
+
+const std::filesystem::path SCENES = std::filesystem::path(MELTPOINT_SOURCE_DIR) / "apps/scenes";
+
+TEST(BuiltinScenes, AreTheFilesOfTheFolder)
+{
+    std::size_t files = 0;
+    for (const auto& entry : std::filesystem::directory_iterator(SCENES)) {
+        files += entry.path().extension() == ".toml" ? 1 : 0;
+    }
+    EXPECT_EQ(builtin_scene_names().size(), files);
+    for (const std::string& name : builtin_scene_names()) {
+        const Scene scene = builtin_scene(name);
+        EXPECT_EQ(scene.name, name);
+        EXPECT_EQ(differences(scene, read_scene_file(SCENES / (name + ".toml"))), std::vector<std::string>{});
+    }
+    EXPECT_EQ(builtin_scene("drop", std::vector<std::string>{"time.frames=3"}).time.frames, 3u);
+    EXPECT_EQ(complaint_of([] { builtin_scene("teapot_drip"); }),
+              "no built-in scene is called \"teapot_drip\"; did you mean \"teapot_drop\"?");
+    EXPECT_NE(complaint_of([] { builtin_scene("x"); }).find("there are dam_break, drop, teapot_drop"),
+              std::string::npos);
+}
+
+TEST(SceneReference, IsUpToDate)
+{
+    const std::string reference = scene_reference_markdown();
+    if (file_text(SCENES / "README.md") != reference) {
+        const auto fresh = std::filesystem::current_path() / "scene_reference.md";
+        std::ofstream(fresh, std::ios::binary) << reference;
+        FAIL() << "apps/scenes/README.md is out of date: copy " << fresh << " over it";
+    }
+}
+
+TEST(SceneReference, DefaultsAreThoseOfTheStruct)
+{
+    // The page as committed, read back row by row.
+    std::istringstream lines(file_text(SCENES / "README.md"));
+    int rows = 0;
+    for (std::string line; std::getline(lines, line);) {
+        const std::size_t name_end = line.find("` | `");
+        if (!line.starts_with("| `") || name_end == std::string::npos) {
+            continue;
+        }
+        const std::string name = line.substr(3, name_end - 3);
+        const std::size_t begin = name_end + 5;
+        const std::string value = line.substr(begin, line.find("` |", begin) - begin);
+        const auto key = std::ranges::find(scene_keys(), name, &SceneKey::name);
+        if (key != scene_keys().end()) {
+            ++rows;
+            EXPECT_EQ(to_toml(key->get(Scene{})), value) << name;
+        }
+    }
+    EXPECT_EQ(rows, static_cast<int>(scene_keys().size()));
+}
+
+TEST(SceneFile, SurvivesMutations)
+{
+    Random random(42);
+    const std::string original = file_text(SCENES / "drop.toml");
+    const std::string alphabet = "[]{}=\"'.,#\n\\ 0-e_a\xff\x80";
+    int read = 0;
+    for (int round = 0; round < 3000; ++round) {
+        std::string text = original;
+        for (std::uint32_t edits = 1 + random.below(6); edits > 0; --edits) {
+            const std::size_t at = random.below(static_cast<std::uint32_t>(text.size()));
+            switch (random.below(4)) {
+            case 0:
+                text[at] = static_cast<char>(random.below(256));
+                break;
+            case 1:
+                text.insert(at, 1, alphabet[random.below(static_cast<std::uint32_t>(alphabet.size()))]);
+                break;
+            case 2:
+                text.erase(at, 1 + random.below(20));
+                break;
+            default:
+                text.insert(at, original, random.below(static_cast<std::uint32_t>(original.size())), 30);
+                break;
+            }
+        }
+        try {
+            const Scene scene = parse(text);
+            EXPECT_EQ(differences(parse(write_scene(scene)), scene), std::vector<std::string>{});
+            ++read;
+        } catch (const Error& error) {
+            EXPECT_EQ(error.kind(), ErrorKind::Input) << text;
+            EXPECT_EQ(std::string(error.what()).find("test.toml:"), 0u) << error.what();
+        }
+    }
+    EXPECT_GT(read, 100); // comments absorb some of the edits: both branches were seen
+    EXPECT_LT(read, 2900);
+}
+
+} // namespace
+} // namespace meltpoint
