@@ -1,0 +1,93 @@
+#include "core/progress.h"
+
+#include <algorithm>
+#include <array>
+#include <chrono>
+#include <cstdlib>
+
+#include <fcntl.h>
+#include <unistd.h>
+
+#include <gtest/gtest.h>
+
+namespace meltpoint {
+namespace {
+
+TEST(Progress, BarTellsRateAndTimeLeft)
+{
+    EXPECT_EQ(progress_bar_line("frames", 30, 90, 10.0, "16,000 particles", 100),
+              "frames [========                ] 30/90  3/s  0:20 left  16,000 particles");
+    EXPECT_EQ(progress_bar_line("frames", 0, 90, 0.0, "", 100), "frames [                        ] 0/90");
+    EXPECT_EQ(progress_bar_line("frames", 1, 101, 60.0, "", 100),
+              "frames [                        ] 1/101  0.0167/s  1:40:00 left");
+    EXPECT_EQ(progress_bar_line("frames", 90, 90, 45.0, "", 100),
+              "frames [========================] 90/90  2/s  0:00 left");
+}
+
+TEST(Progress, BarKeepsWithinItsBounds)
+{
+    EXPECT_EQ(progress_bar_line("frames", 30, 90, 10.0, "", 12), "frames [====");
+    EXPECT_EQ(progress_bar_line("a", 5, 3, 1.0, "", 100), "a [========================] 5/3  5/s  0:00 left");
+    EXPECT_EQ(progress_bar_line("a", 0, 0, 0.0, "", 100), "a [========================] 0/0");
+}
+
+TEST(Progress, WritesALineAnItemWhereThereIsNoTerminal)
+{
+    testing::internal::CaptureStderr();
+    {
+        Progress progress("frame", 2, false);
+        progress.advance("0.1 s");
+        progress.advance();
+    }
+    EXPECT_EQ(testing::internal::GetCapturedStderr(), "frame 1/2  0.1 s\nframe 2/2\n");
+}
+
+TEST(Progress, QuietWritesNothing)
+{
+    testing::internal::CaptureStderr();
+    {
+        Progress progress("frame", 2, true);
+        progress.advance("0.1 s");
+        progress.finish();
+    }
+    EXPECT_EQ(testing::internal::GetCapturedStderr(), "");
+}
+
+TEST(Progress, DrawsABarOnATerminalAndClearsIt)
+{
+    const int terminal = posix_openpt(O_RDWR | O_NOCTTY);
+    ASSERT_GE(terminal, 0);
+    ASSERT_EQ(grantpt(terminal), 0);
+    ASSERT_EQ(unlockpt(terminal), 0);
+    const int slave = open(ptsname(terminal), O_RDWR | O_NOCTTY);
+    ASSERT_GE(slave, 0);
+    const int real_stderr = dup(STDERR_FILENO);
+    dup2(slave, STDERR_FILENO);
+    constexpr int ITEMS = 30;
+    const auto start = std::chrono::steady_clock::now();
+    {
+        Progress progress("frame", ITEMS, false);
+        for (int i = 0; i < ITEMS; ++i) {
+            progress.advance();
+        }
+    }
+    const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    dup2(real_stderr, STDERR_FILENO);
+    close(real_stderr);
+
+    std::array<char, 4096> buffer{};
+    const ssize_t length = read(terminal, buffer.data(), buffer.size());
+    close(slave);
+    close(terminal);
+    ASSERT_GT(length, 0);
+    const std::string output(buffer.data(), static_cast<std::size_t>(length));
+    EXPECT_EQ(output.find("\r\x1b[Kframe [                        ] 1/30"), 0u);
+    EXPECT_EQ(output.rfind("\r\x1b[K"), output.size() - 4);
+    EXPECT_EQ(output.find('\n'), std::string::npos);
+    const auto drawn =
+        std::ranges::count(output, '[') - std::ranges::count(output, 'K'); // brackets, less those of the clearing
+    EXPECT_LE(static_cast<double>(drawn), 1.0 + 10.0 * seconds);
+}
+
+} // namespace
+} // namespace meltpoint
