@@ -3,11 +3,7 @@
 #include <algorithm>
 #include <filesystem>
 #include <fstream>
-#include <iterator>
 #include <sstream>
-#include <utility>
-
-#include <unistd.h>
 
 #include <gtest/gtest.h>
 
@@ -16,6 +12,7 @@
 #include "scene/key_table.h"
 #include "scene/scene_check.h"
 #include "scene/scene_reference.h"
+#include "support/scratch_folder.h"
 
 namespace meltpoint {
 namespace {
@@ -341,38 +338,28 @@ TEST(SceneFile, TakesMeshesOfOverridesFromTheWorkingFolder)
     EXPECT_EQ(mesh_of(parse(mesh, {"fluid.0.mesh=builtin:cube"})), "builtin:cube");
 }
 
-/// A scratch folder, removed at the end.
-class SceneFileOnDisk : public testing::Test {
-protected:
-    SceneFileOnDisk() { std::filesystem::create_directories(folder_); }
-    ~SceneFileOnDisk() override { std::filesystem::remove_all(folder_); }
-
-    std::filesystem::path write(const std::string& name, const std::string& text) const
-    {
-        std::ofstream(folder_ / name, std::ios::binary) << text;
-        return folder_ / name;
-    }
-
-    const std::filesystem::path folder_ =
-        std::filesystem::temp_directory_path() / fmt::format("meltpoint_scene_{}", getpid());
-};
-
-TEST_F(SceneFileOnDisk, ReadsFiles)
+TEST(SceneFileOnDisk, ReadsFiles)
 {
-    const auto path = write("a.toml", "[[fluid]]\nshape='mesh'\nmesh='a.obj'\nposition=[0,1,0]\n");
-    const Scene scene = read_scene_file(path, std::vector<std::string>{"seed=5"});
+    const test::ScratchFolder folder;
+    test::write_bytes(folder / "a.toml", "[[fluid]]\nshape='mesh'\nmesh='a.obj'\nposition=[0,1,0]\n");
+    const Scene scene = read_scene_file(folder / "a.toml", std::vector<std::string>{"seed=5"});
     EXPECT_EQ(scene.seed, 5u);
-    EXPECT_EQ(std::get<MeshShape>(scene.fluids[0].shape).mesh, (folder_ / "a.obj").string());
+    EXPECT_EQ(std::get<MeshShape>(scene.fluids[0].shape).mesh, (folder / "a.obj").string());
 }
 
-TEST_F(SceneFileOnDisk, SaysWhyAFileCannotBeRead)
+TEST(SceneFileOnDisk, SaysWhyAFileCannotBeRead)
 {
+    const test::ScratchFolder folder;
+    const auto write = [&](const std::string& name, const std::string& text) {
+        test::write_bytes(folder / name, text);
+        return folder / name;
+    };
     const auto error = [](const std::filesystem::path& path) {
         return complaint_of([&] { read_scene_file(path); });
     };
-    EXPECT_EQ(error(folder_), folder_.string() + ": cannot read the scene: it is a folder");
-    EXPECT_EQ(error(folder_ / "none.toml"),
-              (folder_ / "none.toml").string() + ": cannot read the scene: No such file or directory");
+    EXPECT_EQ(error(folder.path()), folder.path().string() + ": cannot read the scene: it is a folder");
+    EXPECT_EQ(error(folder / "none.toml"),
+              (folder / "none.toml").string() + ": cannot read the scene: No such file or directory");
     EXPECT_NE(error(write("big.toml", std::string((16 << 20) + 1, ' '))).find("larger than 16 MiB"), std::string::npos);
     EXPECT_NE(error(write("binary.toml", "\x89PNG\r\n\x1a\n")).find("binary.toml:1:"), std::string::npos);
     EXPECT_NE(error("/dev/zero").find("larger than 16 MiB"), std::string::npos);
@@ -539,12 +526,6 @@ TEST(SceneCheck, WorksOnScenesBuiltInCode)
 // --- the scenes of apps/scenes
 // ----------------------------------------------------------------------------------------
 
-std::string file_text(const std::filesystem::path& path)
-{
-    std::ifstream file(path, std::ios::binary);
-    return {std::istreambuf_iterator<char>(file), {}};
-}
-
 const std::filesystem::path SCENES = std::filesystem::path(MELTPOINT_SOURCE_DIR) / "apps/scenes";
 
 TEST(BuiltinScenes, AreTheFilesOfTheFolder)
@@ -569,7 +550,7 @@ TEST(BuiltinScenes, AreTheFilesOfTheFolder)
 TEST(SceneReference, IsUpToDate)
 {
     const std::string reference = scene_reference_markdown();
-    if (file_text(SCENES / "README.md") != reference) {
+    if (test::read_bytes(SCENES / "README.md") != reference) {
         const auto fresh = std::filesystem::current_path() / "scene_reference.md";
         std::ofstream(fresh, std::ios::binary) << reference;
         FAIL() << "apps/scenes/README.md is out of date: copy " << fresh << " over it";
@@ -579,7 +560,7 @@ TEST(SceneReference, IsUpToDate)
 TEST(SceneReference, DefaultsAreThoseOfTheStruct)
 {
     // The page as committed, read back row by row.
-    std::istringstream lines(file_text(SCENES / "README.md"));
+    std::istringstream lines(test::read_bytes(SCENES / "README.md"));
     int rows = 0;
     for (std::string line; std::getline(lines, line);) {
         const std::size_t name_end = line.find("` | `");
@@ -601,7 +582,7 @@ TEST(SceneReference, DefaultsAreThoseOfTheStruct)
 TEST(SceneFile, SurvivesMutations)
 {
     Random random(42);
-    const std::string original = file_text(SCENES / "drop.toml");
+    const std::string original = test::read_bytes(SCENES / "drop.toml");
     const std::string alphabet = "[]{}=\"'.,#\n\\ 0-e_a\xff\x80";
     int read = 0;
     for (int round = 0; round < 3000; ++round) {
