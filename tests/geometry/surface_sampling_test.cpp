@@ -1,0 +1,183 @@
+#include "geometry/surface_sampling.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+
+#include <gtest/gtest.h>
+#include <tbb/global_control.h>
+
+#include "core/error.h"
+#include "geometry/alias_table.h"
+#include "geometry/builtin_meshes.h"
+#include "geometry/teapot.h"
+
+namespace meltpoint {
+namespace {
+
+/// Upper tail of the chi-square distribution by the cube-root normal approximation (Wilson & Hilferty 1931), good to a
+/// few 1e-4 from 10 degrees of freedom on.
+double chi_square_p(double statistic, double degrees)
+{
+    const double variance = 2.0 / (9.0 * degrees);
+    const double z = (std::cbrt(statistic / degrees) - (1.0 - variance)) / std::sqrt(variance);
+    return 0.5 * std::erfc(z / std::sqrt(2.0));
+}
+
+/// p of counts against weights, neighbors pooled until each bin expects at least five.
+double goodness_of_fit(const std::vector<double>& weights, const std::vector<std::uint32_t>& drawn)
+{
+    std::vector<double> counts(weights.size());
+    for (const std::uint32_t index : drawn) {
+        counts[index] += 1.0;
+    }
+    double weight_sum = 0.0;
+    for (const double weight : weights) {
+        weight_sum += weight;
+    }
+    std::vector<std::pair<double, double>> bins; // expected, counted
+    double expected = 0.0;
+    double counted = 0.0;
+    for (std::size_t i = 0; i < weights.size(); ++i) {
+        expected += weights[i] / weight_sum * double(drawn.size());
+        counted += counts[i];
+        if (expected >= 5.0) {
+            bins.emplace_back(expected, counted);
+            expected = counted = 0.0;
+        }
+    }
+    bins.back().first += expected;
+    bins.back().second += counted;
+    double statistic = 0.0;
+    for (const auto& [e, c] : bins) {
+        statistic += (c - e) * (c - e) / e;
+    }
+    return chi_square_p(statistic, double(bins.size()) - 1.0);
+}
+
+std::vector<double> areas_of(const TriangleMesh& mesh)
+{
+    std::vector<double> areas;
+    for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
+        areas.push_back(triangle_area(mesh, i));
+    }
+    return areas;
+}
+
+TEST(AliasTable, DrawsByWeightAndNeverTheWeightless)
+{
+    std::vector<double> weights;
+    Random random(5);
+    for (int i = 0; i < 200; ++i) {
+        weights.push_back(i % 7 == 0 ? 0.0 : std::pow(10.0, 3.0 * random.uniform()));
+    }
+    const AliasTable table(weights);
+    std::vector<std::uint32_t> drawn;
+    for (int i = 0; i < 200'000; ++i) {
+        drawn.push_back(table.draw(random));
+        ASSERT_GT(weights[drawn.back()], 0.0);
+    }
+    const double p = goodness_of_fit(weights, drawn);
+    EXPECT_GE(p, 0.001);
+    EXPECT_LE(p, 0.999);
+}
+
+TEST(AliasTable, HandlesOneIndexAndExtremeRatios)
+{
+    Random random(6);
+    EXPECT_EQ(AliasTable(std::vector<double>{3.0}).draw(random), 0u);
+    const AliasTable table(std::vector<double>{1e-30, 1.0, 0.0, 1e-30});
+    for (int i = 0; i < 10'000; ++i) {
+        EXPECT_EQ(table.draw(random), 1u);
+    }
+}
+
+TEST(SurfaceSampling, PointsPerTriangleFollowTheArea)
+{
+    for (const std::uint64_t seed : {1u, 2u, 3u}) {
+        for (const TriangleMesh& mesh : {teapot(6), builtin_mesh("torus")}) {
+            const double p = goodness_of_fit(areas_of(mesh), sample_surface_random(mesh, 200'000, seed).triangle);
+            EXPECT_GE(p, 0.001) << "seed " << seed;
+            EXPECT_LE(p, 0.999) << "seed " << seed;
+        }
+    }
+}
+
+TEST(SurfaceSampling, PointsAreUniformOnTheirTriangles)
+{
+    const std::size_t count = 200'000;
+    const PointCloud cloud = sample_surface_random(builtin_mesh("cube"), count, 4);
+    for (int axis = 0; axis < 2; ++axis) {
+        std::vector<double> values;
+        for (const glm::vec2& uv : cloud.barycentric) {
+            ASSERT_GE(uv[axis], 0.0f);
+            ASSERT_LE(uv.x + uv.y, 1.0f + 1e-6f);
+            values.push_back(uv[axis]);
+        }
+        std::sort(values.begin(), values.end());
+        // Kolmogorov-Smirnov: on a folded square each coordinate has the distribution 1 - (1 - u)^2.
+        double largest_gap = 0.0;
+        for (std::size_t i = 0; i < count; ++i) {
+            const double expected = 1.0 - (1.0 - values[i]) * (1.0 - values[i]);
+            largest_gap = std::max({largest_gap, std::abs(double(i + 1) / double(count) - expected),
+                                    std::abs(double(i) / double(count) - expected)});
+        }
+        EXPECT_LT(largest_gap * std::sqrt(double(count)), 1.949); // p = 0.001
+        EXPECT_GT(largest_gap * std::sqrt(double(count)), 0.36);  // p = 0.999
+    }
+}
+
+TEST(SurfaceSampling, PointsLieWhereTheySayAndCarryTheNormal)
+{
+    const TriangleMesh sphere = builtin_mesh("sphere");
+    const PointCloud cloud = sample_surface_random(sphere, 10'000, 5);
+    ASSERT_EQ(cloud.size(), 10'000u);
+    for (std::size_t i = 0; i < cloud.size(); ++i) {
+        const glm::uvec3& t = sphere.triangles[cloud.triangle[i]];
+        const glm::vec2 uv = cloud.barycentric[i];
+        const glm::vec3 expected =
+            (1.0f - uv.x - uv.y) * sphere.positions[t.x] + uv.x * sphere.positions[t.y] + uv.y * sphere.positions[t.z];
+        ASSERT_LT(glm::distance(cloud.positions[i], expected), 1e-6f);
+        ASSERT_NEAR(glm::length(cloud.normals[i]), 1.0f, 1e-5f);
+        ASSERT_LT(glm::distance(cloud.normals[i], glm::normalize(cloud.positions[i])), 2e-3f);
+    }
+}
+
+TEST(SurfaceSampling, WithoutVertexNormalsOrAtCreasesTheTriangleSpeaks)
+{
+    TriangleMesh cube = builtin_mesh("cube");
+    for (const bool creases : {false, true}) {
+        cube.normals.assign(creases ? cube.positions.size() : 0, glm::vec3(0.0f));
+        const PointCloud cloud = sample_surface_random(cube, 1000, 6);
+        for (std::size_t i = 0; i < cloud.size(); ++i) {
+            const glm::vec3 normal = cloud.normals[i];
+            ASSERT_FLOAT_EQ(glm::length(normal), 1.0f);
+            ASSERT_NEAR(glm::dot(cloud.positions[i], normal), 0.5f, 1e-6f);
+        }
+    }
+}
+
+TEST(SurfaceSampling, IsTheSameOnAnyNumberOfThreadsAndForAnyCount)
+{
+    const TriangleMesh mesh = builtin_mesh("torus");
+    const auto run = [&](std::size_t threads, std::size_t count) {
+        const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, threads);
+        return sample_surface_random(mesh, count, 7);
+    };
+    const PointCloud one = run(1, 20'000);
+    const PointCloud two = run(2, 20'000);
+    EXPECT_EQ(std::memcmp(one.positions.data(), two.positions.data(), one.size() * sizeof(glm::vec3)), 0);
+    EXPECT_EQ(std::memcmp(one.normals.data(), two.normals.data(), one.size() * sizeof(glm::vec3)), 0);
+    EXPECT_EQ(one.triangle, two.triangle);
+    EXPECT_EQ(run(2, 100).positions[99], one.positions[99]);
+    EXPECT_NE(sample_surface_random(mesh, 100, 8).positions[0], one.positions[0]);
+    EXPECT_EQ(sample_surface_random(mesh, 0, 7).size(), 0u);
+}
+
+TEST(SurfaceSampling, AnAbsurdCountIsRefused)
+{
+    EXPECT_THROW((void)sample_surface_random(builtin_mesh("cube"), std::size_t{1} << 40, 1), Error);
+}
+
+} // namespace
+} // namespace meltpoint
