@@ -1,7 +1,6 @@
 // Exclusive prefix sum over the invocations of a workgroup.
 #ifndef WORKGROUP_SCAN_GLSL
 #define WORKGROUP_SCAN_GLSL
-#extension GL_EXT_control_flow_attributes : require
 
 #include "include/invocation.glsl"
 
@@ -16,7 +15,7 @@ uint workgroup_exclusive_sum(uint value, out uint total)
     barrier();
     uint before = 0u;
     total = 0u;
-    [[unroll]] for (uint i = 0u; i < WORKGROUP_SIZE; ++i) {
+    for (uint i = 0u; i < WORKGROUP_SIZE; ++i) {
         before += i < gl_LocalInvocationIndex ? workgroup_values[i] : 0u;
         total += workgroup_values[i];
     }
