@@ -82,6 +82,11 @@ public:
         dispatch_indirect_bytes(kernel, arguments, offset, std::as_bytes(std::span<const Push, 1>(&push, 1)),
                                 {bindings.begin(), bindings.size()});
     }
+    void dispatch_indirect(const Kernel& kernel, const Buffer& arguments, VkDeviceSize offset, NoPush /*push*/,
+                           std::initializer_list<Binding> bindings)
+    {
+        dispatch_indirect_bytes(kernel, arguments, offset, {}, {bindings.begin(), bindings.size()});
+    }
 
     /// Sets every 32-bit word of the first `bytes` bytes (all by default).
     void fill(const Buffer& buffer, std::uint32_t word, VkDeviceSize bytes = VK_WHOLE_SIZE);
