@@ -1,0 +1,67 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <optional>
+
+#include <glm/glm.hpp>
+
+#include "core/aabb.h"
+#include "gpu/buffer.h"
+#include "render/camera.h"
+#include "shared/render_params.h"
+
+namespace meltpoint::render {
+
+/// Particles in device buffers, read only. Fluid, solid and dust alike are drawn as spheres; dead ones are not drawn.
+struct ParticleView {
+    const gpu::Buffer& position;   ///< vec4: xyz in m, w the mass
+    const gpu::Buffer& velocity;   ///< vec4: xyz in m/s
+    const gpu::Buffer& density;    ///< float, kg/m^3
+    const gpu::Buffer& pressure;   ///< float, Pa
+    const gpu::Buffer& attributes; ///< uint, shared/particle_state.h
+    std::uint32_t count = 0;
+};
+
+/// Surface splats in device buffers, read only: flat discs, seen from both sides.
+struct DiscView {
+    const gpu::Buffer& position; ///< vec4: xyz in m, w the radius in m
+    const gpu::Buffer& normal;   ///< vec4: xyz, of any length but 0
+    const gpu::Buffer& color;    ///< vec4: linear RGB
+    std::uint32_t count = 0;
+};
+
+/// A ground plane that fades into the background.
+struct Floor {
+    float height = 0.0f;                   ///< m; the plane y = height
+    glm::vec2 center{0.0f};                ///< m, x and z, of the fade
+    float extent = 5.0f;                   ///< m from the center to where nothing of it is left
+    float grid = 0.25f;                    ///< m between its lines
+    glm::vec3 color{0.80f, 0.815f, 0.83f}; ///< linear RGB
+};
+
+/// How a frame looks. Lengths in meters, colors linear RGB.
+struct FrameSettings {
+    Camera camera;
+    glm::vec3 light_direction{0.45f, 1.0f, 0.35f}; ///< from the scene to the light, of any length but 0
+    glm::vec3 background{0.86f, 0.89f, 0.92f};
+    std::optional<Floor> floor;
+    Aabb bounds;      ///< what may cast a shadow; empty: no shadows
+    bool box = false; ///< draws the edges of bounds
+    glm::vec3 box_color{0.42f, 0.46f, 0.51f};
+    std::uint32_t color_mode = shared::COLOR_MATERIAL; ///< shared::COLOR_*
+    glm::vec2 color_range{0.0f, 1.0f};                 ///< at the ends of the colormap, in the mode's unit
+    bool lit = true;                                   ///< false: plain colors without light and shadow
+    float splat_radius = 0.01f;                        ///< of particles
+    std::array<float, shared::MAX_MATERIALS> rest_density{};
+    std::array<glm::vec3, shared::MAX_MATERIALS> material_color{};
+};
+
+/// What a frame shows.
+struct Frame {
+    FrameSettings settings;
+    std::optional<ParticleView> particles;
+    std::optional<DiscView> discs;
+};
+
+} // namespace meltpoint::render

@@ -1,0 +1,181 @@
+#include "render/renderer.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstring>
+#include <limits>
+
+#include "core/error.h"
+#include "render/frame_params.h"
+#include "spirv/render/disc.frag.h"
+#include "spirv/render/disc.vert.h"
+#include "spirv/render/line.frag.h"
+#include "spirv/render/line.vert.h"
+#include "spirv/render/resolve.frag.h"
+#include "spirv/render/screen.vert.h"
+#include "spirv/render/sphere.frag.h"
+#include "spirv/render/sphere.vert.h"
+
+namespace meltpoint::render {
+
+namespace {
+
+constexpr std::uint32_t max_samples = 4;
+constexpr std::uint32_t shadow_size = 512; // texels
+constexpr std::uint32_t vertices_per_quad = 6;
+constexpr std::uint32_t box_edges = 12;
+constexpr std::uint32_t max_splats = 1u << 28;
+constexpr VkFormat visibility_format = VK_FORMAT_R32_UINT;
+constexpr VkFormat depth_format = VK_FORMAT_D32_SFLOAT;
+constexpr VkFormat picture_format = VK_FORMAT_R8G8B8A8_SRGB;
+
+std::uint32_t check_samples(std::uint32_t samples)
+{
+    if (samples == 0 || samples > max_samples) {
+        throw input_error("a pixel is to be averaged over {0} x {0} samples; 1 to {1} along each side are allowed",
+                          samples, max_samples);
+    }
+    return samples;
+}
+
+/// size * samples without overflow; too large sizes stay too large.
+std::uint32_t times(std::uint32_t size, std::uint32_t samples)
+{
+    return static_cast<std::uint32_t>(
+        std::min<std::uint64_t>(std::uint64_t{size} * samples, std::numeric_limits<std::uint32_t>::max()));
+}
+
+void check_count(std::uint32_t count, const char* what)
+{
+    if (count > max_splats) {
+        throw input_error("{} {} were to be drawn; at most {} are allowed", count, what, max_splats);
+    }
+}
+
+} // namespace
+
+Renderer::Renderer(const gpu::Context& context, std::uint32_t width, std::uint32_t height, std::uint32_t samples)
+    : context_(&context), width_(width), height_(height), samples_(check_samples(samples)),
+      shadow_map_(context, shadow_size, shadow_size, depth_format,
+                  VK_IMAGE_USAGE_DEPTH_STENCIL_ATTACHMENT_BIT | VK_IMAGE_USAGE_SAMPLED_BIT, "shadow map"),
+      visibility_(context, times(width, samples), times(height, samples), visibility_format,
+                  VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT | VK_IMAGE_USAGE_SAMPLED_BIT, "visibility"),
+      depth_(context, times(width, samples), times(height, samples), depth_format,
+             VK_IMAGE_USAGE_DEPTH_STENCIL_ATTACHMENT_BIT | VK_IMAGE_USAGE_TRANSFER_SRC_BIT, "depth"),
+      picture_(context, width, height, picture_format,
+               VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT | VK_IMAGE_USAGE_TRANSFER_SRC_BIT, "picture"),
+      params_(gpu::make_buffer<shared::RenderParams>(context, 1, "render parameters")),
+      readback_(context, VkDeviceSize{4} * width * height, gpu::MemoryUse::Readback, "picture read-back"),
+      sphere_shadow_(context, "sphere shadow", {render_sphere_vert, render_sphere_frag, {}, depth_format}),
+      disc_shadow_(context, "disc shadow", {render_disc_vert, render_disc_frag, {}, depth_format}),
+      sphere_(context, "sphere", {render_sphere_vert, render_sphere_frag, {visibility_format}, depth_format}),
+      disc_(context, "disc", {render_disc_vert, render_disc_frag, {visibility_format}, depth_format}),
+      line_(context, "line", {render_line_vert, render_line_frag, {visibility_format}, depth_format}),
+      resolve_(context, "resolve", {render_screen_vert, render_resolve_frag, {picture_format}}), transfers_(context)
+{
+}
+
+void Renderer::write_params(gpu::Commands& commands, const shared::RenderParams& params)
+{
+    // Written by the device in the command's own order, so that frames in flight never see each other's parameters.
+    static_assert(sizeof(params) <= 65536 && sizeof(params) % 4 == 0, "the limits of vkCmdUpdateBuffer");
+    commands.use(params_, VK_PIPELINE_STAGE_2_ALL_TRANSFER_BIT, VK_ACCESS_2_TRANSFER_WRITE_BIT, true);
+    commands.flush_barriers();
+    context_->vk.vkCmdUpdateBuffer(commands.handle(), params_.handle(), 0, sizeof(params), &params);
+}
+
+void Renderer::draw(gpu::Commands& commands, const Frame& frame)
+{
+    const std::uint32_t spheres = frame.particles ? frame.particles->count : 0;
+    const std::uint32_t discs = frame.discs ? frame.discs->count : 0;
+    check_count(spheres, "particles");
+    check_count(discs, "discs");
+    const shared::RenderParams params = frame_params(frame.settings, width_, height_, samples_, shadow_size);
+    const gpu::Scope scope(commands, "render");
+    write_params(commands, params);
+    last_camera_ = params.camera;
+
+    const auto splats = [&](const gpu::GraphicsPipeline& sphere, const gpu::GraphicsPipeline& disc,
+                            const shared::SplatCamera& camera) {
+        const shared::SplatPush push{camera, params.splat_radius};
+        std::vector<gpu::Draw> draws;
+        if (spheres > 0) {
+            draws.push_back({&sphere,
+                             spheres * vertices_per_quad,
+                             gpu::push_bytes(push),
+                             {frame.particles->position, frame.particles->attributes}});
+        }
+        if (discs > 0) {
+            draws.push_back({&disc,
+                             discs * vertices_per_quad,
+                             gpu::push_bytes(push),
+                             {frame.discs->position, frame.discs->normal}});
+        }
+        return draws;
+    };
+
+    if (params.shadows != 0) {
+        const gpu::Scope shadow(commands, "shadow map");
+        const gpu::Targets targets{.colors = {}, .depth = gpu::DepthTarget{&shadow_map_}};
+        gpu::record_draw_pass(commands, targets, splats(sphere_shadow_, disc_shadow_, params.light));
+    }
+    {
+        const gpu::Scope visible(commands, "visible surface");
+        std::vector<gpu::Draw> draws = splats(sphere_, disc_, params.camera);
+        if (frame.settings.box && !frame.settings.bounds.empty()) {
+            draws.push_back({&line_, box_edges * vertices_per_quad, {}, {params_}});
+        }
+        const gpu::Targets targets{.colors = {{&visibility_}}, .depth = gpu::DepthTarget{&depth_}};
+        gpu::record_draw_pass(commands, targets, draws);
+    }
+    {
+        const gpu::Scope resolve(commands, "resolve");
+        const gpu::Buffer& none = params_; // bound where there is nothing to look up, never indexed
+        const gpu::Draw draw{
+            &resolve_,
+            3,
+            {},
+            {params_, visibility_, shadow_map_, frame.particles ? frame.particles->position : none,
+             frame.particles ? frame.particles->velocity : none, frame.particles ? frame.particles->density : none,
+             frame.particles ? frame.particles->pressure : none, frame.particles ? frame.particles->attributes : none,
+             frame.discs ? frame.discs->position : none, frame.discs ? frame.discs->normal : none,
+             frame.discs ? frame.discs->color : none}};
+        const gpu::Targets targets{.colors = {{&picture_}}, .depth = std::nullopt};
+        gpu::record_draw_pass(commands, targets, std::span(&draw, 1));
+    }
+}
+
+Image Renderer::capture()
+{
+    transfers_.begin();
+    gpu::copy_to_buffer(transfers_, picture_, readback_);
+    transfers_.submit();
+    transfers_.wait();
+    Image image{width_, height_, std::vector<std::uint8_t>(std::size_t{4} * width_ * height_)};
+    std::memcpy(image.rgba.data(), readback_.mapped<std::uint8_t>().data(), image.rgba.size());
+    return image;
+}
+
+std::vector<float> Renderer::capture_distance()
+{
+    const std::size_t count = std::size_t{depth_.extent().width} * depth_.extent().height;
+    const gpu::Buffer staging(*context_, count * sizeof(float), gpu::MemoryUse::Readback, "depth read-back");
+    transfers_.begin();
+    gpu::copy_to_buffer(transfers_, depth_, staging);
+    transfers_.submit();
+    transfers_.wait();
+
+    const std::span<const float> depth = staging.mapped<float>().first(count);
+    std::vector<float> distance(count);
+    const glm::vec2 map = last_camera_.depth_map;
+    std::transform(depth.begin(), depth.end(), distance.begin(), [&](float value) {
+        if (value <= 0.0f) {
+            return std::numeric_limits<float>::infinity();
+        }
+        return last_camera_.orthographic != 0 ? (value - map.x) / map.y : map.y / (value - map.x);
+    });
+    return distance;
+}
+
+} // namespace meltpoint::render

@@ -1,0 +1,192 @@
+// From visible surfaces to the picture: looks up what each sample shows, intersects it again for the exact point and
+// normal, colors and lights it, and averages the samples of a pixel in linear light.
+#version 460
+#extension GL_GOOGLE_include_directive : require
+
+#include "include/shading.glsl"
+#include "include/splat.glsl"
+#include "shared/colormap.h"
+#include "shared/particle_state.h"
+
+layout(binding = 0, scalar) readonly buffer Params { RenderParams params; };
+layout(binding = 1) uniform usampler2D visibility;
+layout(binding = 2) uniform sampler2D shadow_map;
+layout(binding = 3, scalar) readonly buffer Positions { vec4 position[]; };
+layout(binding = 4, scalar) readonly buffer Velocities { vec4 velocity[]; };
+layout(binding = 5, scalar) readonly buffer Densities { float density[]; };
+layout(binding = 6, scalar) readonly buffer Pressures { float pressure[]; };
+layout(binding = 7, scalar) readonly buffer Attributes { uint attributes[]; };
+layout(binding = 8, scalar) readonly buffer DiscPositions { vec4 disc_position_radius[]; };
+layout(binding = 9, scalar) readonly buffer DiscNormals { vec4 disc_normal[]; };
+layout(binding = 10, scalar) readonly buffer DiscColors { vec4 disc_color[]; };
+
+layout(location = 0) out vec4 out_color;
+
+vec3 to_world(vec3 point) { return (params.view_to_world * vec4(point, 1.0)).xyz; }
+vec3 to_world_direction(vec3 direction) { return mat3(params.view_to_world) * direction; }
+
+// --- shadow ----------------------------------------------------------------------------------------------------------------
+
+// Share of the key light that reaches a point: percentage-closer filtering (Reeves, Salesin & Cook 1987) over 3 x 3 texels,
+// weighted by their overlap with a square around the point so that the result is smooth.
+float key_light_at(vec3 world, vec3 normal)
+{
+    if (params.shadows == 0u) {
+        return 1.0;
+    }
+    float lift = 0.5 * params.splat_radius; // off the surface, or it would shade itself
+    vec3 p = (params.light.view * vec4(world + normal * lift, 1.0)).xyz;
+    vec2 ndc = (p.xy - params.light.plane_offset) / params.light.plane_scale;
+    if (any(greaterThan(abs(ndc), vec2(1.0)))) {
+        return 1.0;
+    }
+    // Behind the far plane nothing casts shadows: the cleared map, 0, must not shade it.
+    float depth = max(depth_at(params.light, -p.z - lift), 0.0);
+
+    vec2 size = vec2(textureSize(shadow_map, 0));
+    vec2 at = 0.5 * (ndc + 1.0) * size - 0.5;
+    vec2 corner = floor(at);
+    vec2 f = at - corner;
+    // Each gather fetches 2 x 2 texels: (0,1) (1,1) (1,0) (0,0). Four of them cover texels -1..2 with weights 1-f 1 1 f.
+    float lit = 0.0;
+    for (int i = 0; i < 4; ++i) {
+        bvec2 upper = bvec2((i & 1) != 0, (i & 2) != 0);
+        vec2 offset = mix(vec2(0.0), vec2(2.0), upper);
+        vec2 low = mix(1.0 - f, vec2(1.0), upper);
+        vec2 high = mix(vec2(1.0), f, upper);
+        vec4 passes = step(textureGather(shadow_map, (corner + offset) / size), vec4(depth));
+        lit += dot(passes, vec4(low.x * high.y, high.x * high.y, high.x * low.y, low.x * low.y));
+    }
+    return lit / 9.0;
+}
+
+// --- color -----------------------------------------------------------------------------------------------------------------
+
+float in_range(float value)
+{
+    return (value - params.color_range.x) / (params.color_range.y - params.color_range.x);
+}
+
+vec3 particle_color(uint particle)
+{
+    uint material = min(particle_material(attributes[particle]), MAX_MATERIALS - 1u);
+    switch (params.color_mode) {
+    case COLOR_DENSITY:
+        return density[particle] < params.rest_density[material] ? below_rest_color()
+                                                                 : colormap(in_range(density[particle]));
+    case COLOR_SPEED:
+        return colormap(in_range(length(velocity[particle].xyz)));
+    case COLOR_PRESSURE:
+        return colormap(in_range(pressure[particle]));
+    }
+    return params.material_color[material];
+}
+
+Gloss particle_gloss(uint particle)
+{
+    if (params.color_mode != COLOR_MATERIAL) {
+        return MATTE;
+    }
+    return particle_state(attributes[particle]) == STATE_FLUID ? WATER : STONE;
+}
+
+// normal and point in view space.
+vec3 surface_color(vec3 albedo, Gloss gloss, vec3 point, vec3 normal, Ray ray)
+{
+    vec3 world_normal = to_world_direction(normal);
+    if (params.color_mode == COLOR_NORMAL) {
+        return 0.5 * world_normal + 0.5;
+    }
+    if (params.lit == 0u) {
+        return albedo;
+    }
+    float light = key_light_at(to_world(point), world_normal);
+    return shade(albedo, gloss, world_normal, to_world_direction(-ray.direction), params.light_direction, light);
+}
+
+vec3 sphere_color(uint particle, Ray ray)
+{
+    vec3 center = (params.camera.view * vec4(position[particle].xyz, 1.0)).xyz;
+    float miss;
+    vec3 point = intersect_sphere(params.camera, ray, center, params.splat_radius, miss);
+    vec3 normal = normalize(point - center);
+    return surface_color(particle_color(particle), particle_gloss(particle), point, normal, ray);
+}
+
+vec3 disc_splat_color(uint disc, Ray ray)
+{
+    vec3 center = (params.camera.view * vec4(disc_position_radius[disc].xyz, 1.0)).xyz;
+    vec3 normal = normalize(mat3(params.camera.view) * disc_normal[disc].xyz);
+    float rho_squared;
+    vec3 point = intersect_disc(ray, center, normal, disc_position_radius[disc].w, rho_squared);
+    normal = dot(normal, ray.direction) > 0.0 ? -normal : normal;
+    return surface_color(disc_color[disc].rgb, STONE, point, normal, ray);
+}
+
+// --- floor -----------------------------------------------------------------------------------------------------------------
+
+// Coverage of lines `spacing` apart, one in twelve of it wide at most, filtered over the pixel's footprint.
+float grid_lines(vec2 p, vec2 footprint, float spacing)
+{
+    vec2 width = max(footprint, vec2(0.008 * spacing));
+    vec2 to_line = abs(fract(p / spacing + 0.5) - 0.5) * spacing;
+    vec2 line = clamp(1.0 - to_line / width, 0.0, 1.0) * (0.008 * spacing / width);
+    return max(line.x, line.y);
+}
+
+vec3 floor_color(Ray ray)
+{
+    vec3 origin = to_world(ray.origin);
+    vec3 direction = to_world_direction(ray.direction);
+    float t = (params.floor_height - origin.y) / direction.y;
+    vec3 hit = origin + t * direction;
+    float depth = dot(t * ray.direction, vec3(0.0, 0.0, -1.0));
+    float far = length(hit.xz - params.floor_center) / params.floor_extent;
+    if (params.floor_extent <= 0.0 || direction.y >= 0.0 || depth < params.camera.near_distance || !(far < 1.0)) {
+        return params.background;
+    }
+    vec3 up = vec3(0.0, 1.0, 0.0);
+    float light = params.lit != 0u ? key_light_at(hit, up) : 1.0;
+    vec2 plane_step = abs(params.camera.pixel * params.camera.plane_scale) * float(params.samples);
+    float across = params.camera.orthographic != 0u ? plane_step.x : plane_step.x * t;
+    vec2 footprint = vec2(across) / max(abs(direction.y), 0.02);
+    vec3 albedo = params.floor_color * (1.0 - 0.10 * grid_lines(hit.xz, footprint, params.floor_grid));
+    float shadow = 1.0 - 0.42 * (1.0 - light);
+    return mix(albedo * shadow, params.background, smoothstep(0.35, 1.0, far));
+}
+
+// --- the picture -------------------------------------------------------------------------------------------------------------
+
+vec3 sample_color(uint surface, vec2 fragment)
+{
+    Ray ray = ray_through(params.camera, ndc_of_sample(params.camera, fragment));
+    uint index = surface & ((1u << SURFACE_SHIFT) - 1u);
+    switch (surface >> SURFACE_SHIFT) {
+    case SURFACE_SPHERE:
+        return sphere_color(index, ray);
+    case SURFACE_DISC:
+        return disc_splat_color(index, ray);
+    case SURFACE_LINE:
+        return params.line_color;
+    }
+    return floor_color(ray);
+}
+
+void main()
+{
+    int samples = int(params.samples);
+    ivec2 first = ivec2(gl_FragCoord.xy) * samples;
+    vec3 sum = vec3(0.0);
+    vec3 color;
+    uint previous;
+    for (int i = 0; i < samples * samples; ++i) {
+        ivec2 at = first + ivec2(i % samples, i / samples);
+        uint surface = texelFetch(visibility, at, 0).r;
+        if (i == 0 || surface != previous) { // within a pixel a surface hardly changes: shade it once
+            color = sample_color(surface, vec2(at) + 0.5);
+            previous = surface;
+        }
+        sum += color;
+    }
+    out_color = vec4(sum / float(samples * samples), 1.0);
+}

@@ -1,0 +1,28 @@
+// Particles as spheres: each pulls its particle and spans the quad that covers the sphere on screen.
+#version 460
+#extension GL_GOOGLE_include_directive : require
+
+#include "include/splat.glsl"
+#include "shared/particle_state.h"
+
+layout(binding = 0, scalar) readonly buffer Positions { vec4 position[]; };
+layout(binding = 1, scalar) readonly buffer Attributes { uint attributes[]; };
+layout(push_constant, scalar) uniform Push { SplatPush push; };
+
+layout(location = 0) flat out vec3 out_center; // view space
+layout(location = 1) flat out uint out_particle;
+
+void main()
+{
+    uint particle = uint(gl_VertexIndex) / VERTICES_PER_QUAD;
+    vec3 center = (push.camera.view * vec4(position[particle].xyz, 1.0)).xyz;
+    float radius = push.radius;
+
+    vec4 bound = NOWHERE.xxyy;
+    if (particle_state(attributes[particle]) != STATE_DEAD) {
+        bound = sphere_bound(push.camera, center, radius);
+    }
+    gl_Position = quad_vertex(push.camera, bound, -center.z - radius, uint(gl_VertexIndex) % VERTICES_PER_QUAD);
+    out_center = center;
+    out_particle = particle;
+}

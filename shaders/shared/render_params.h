@@ -1,0 +1,67 @@
+// Everything a draw needs besides the particles themselves: one struct in one device buffer, written for each frame.
+#ifndef MELTPOINT_SHARED_RENDER_PARAMS_H
+#define MELTPOINT_SHARED_RENDER_PARAMS_H
+#include "prelude.h"
+#include "sph_params.h"
+
+SHARED_BEGIN
+
+SHARED_CONSTANT uint COLOR_MATERIAL = 0u;
+SHARED_CONSTANT uint COLOR_DENSITY = 1u;  // magenta below the rest density, the colormap above
+SHARED_CONSTANT uint COLOR_SPEED = 2u;
+SHARED_CONSTANT uint COLOR_PRESSURE = 3u;
+SHARED_CONSTANT uint COLOR_NORMAL = 4u;   // world-space normal n as linear color (n + 1)/2, never lit
+
+// What a sample of the visibility image shows: kind in the upper two bits, index of particle or disc below.
+SHARED_CONSTANT uint SURFACE_NONE = 0u;
+SHARED_CONSTANT uint SURFACE_SPHERE = 1u;
+SHARED_CONSTANT uint SURFACE_DISC = 2u;
+SHARED_CONSTANT uint SURFACE_LINE = 3u;
+SHARED_CONSTANT uint SURFACE_SHIFT = 30u;
+
+// A camera as splats need it. View space is right-handed and looks along -z; d = -z is the distance along the view axis.
+// The view plane of a point is (x, y)/d, of an orthographic camera (x, y): straight lines in it are straight on screen.
+struct SplatCamera {
+    mat4 view;            // world to view space
+    vec2 plane_scale;     // view plane = ndc * plane_scale + plane_offset
+    vec2 plane_offset;
+    vec2 depth_map;       // depth (reversed: 1 near, 0 far) = x + y/d, of an orthographic camera x + y d
+    vec2 pixel;           // size of a pixel in ndc
+    float near_distance;  // m, along the view axis; surfaces nearer than this are cut away
+    float far_distance;   // m, may be infinite
+    uint orthographic;    // 1: all rays are parallel
+};
+
+// Push constants of the passes that draw splats.
+struct SplatPush {
+    SplatCamera camera;
+    float radius; // m, of spheres
+};
+
+struct RenderParams {
+    SplatCamera camera;
+    SplatCamera light; // orthographic, of the shadow map
+    mat4 view_to_world;
+    vec3 light_direction; // world space, unit, from the scene to the light
+    float splat_radius;   // m, of particles
+    vec3 background;      // colors are linear RGB
+    uint color_mode;      // COLOR_*
+    vec2 color_range;     // at the ends of the colormap, in the mode's unit
+    uint lit;             // 0: plain colors without light and shadow
+    uint shadows;         // 1: the shadow map is there
+    vec3 floor_color;
+    float floor_height;   // m; the floor's plane is y = floor_height
+    vec2 floor_center;    // m, x and z
+    float floor_extent;   // m; the floor has faded into the background at this distance from its center; 0: no floor
+    float floor_grid;     // m between the floor's lines
+    vec3 box_min;         // m
+    float line_width;     // samples
+    vec3 box_max;
+    uint samples;         // samples of the visibility image along a pixel's side
+    vec3 line_color;
+    vec3 material_color[MAX_MATERIALS];
+    float rest_density[MAX_MATERIALS]; // kg/m^3
+};
+
+SHARED_END
+#endif
