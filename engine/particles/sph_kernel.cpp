@@ -1,4 +1,4 @@
-// Kernels, their lattice moments and their plane integrals.
+// Kernels and their lattice moments.
 // Müller, Charypar & Gross, "Particle-Based Fluid Simulation for Interactive Applications", SCA 2003 (poly6, spiky,
 // viscosity). Dehnen & Aly, "Improving convergence in SPH simulations without pairing instability", MNRAS 425, 2012
 // (Wendland C2).
@@ -14,7 +14,7 @@ namespace {
 
 constexpr double PI = std::numbers::pi;
 
-// Calls body(offset along the wall's normal in spacings, distance in spacings) for each site of the cubic lattice
+// Calls body(x in spacings, distance in spacings) for each site of the cubic lattice
 // nearer than the support radius, the origin included.
 template <class Body>
 void for_each_lattice_site(double support_ratio, const Body& body)
@@ -140,40 +140,6 @@ LatticeMoments lattice_moments(std::uint32_t kernel, double support_radius, doub
     return moments;
 }
 
-double wall_density_integral(std::uint32_t kernel, double distance, double support_radius)
-{
-    const double q = distance / support_radius;
-    if (q >= 1.0) {
-        return 0.0;
-    }
-    if (q <= -1.0) {
-        return 1.0;
-    }
-    if (kernel == shared::KERNEL_PAPER) {
-        const double q2 = q * q;
-        const double odd = q * (1.0 + q2 * (-4.0 / 3.0 + q2 * (6.0 / 5.0 + q2 * (-4.0 / 7.0 + q2 / 9.0))));
-        return 0.5 - 315.0 / 256.0 * odd;
-    }
-    const double u = 1.0 - std::abs(q);
-    const double u3 = u * u * u;
-    const double beyond = 21.0 * u3 * u3 * (1.0 / 6.0 - 3.0 * u / 14.0 + u * u / 14.0);
-    return q >= 0.0 ? beyond : 1.0 - beyond;
-}
-
-double wall_gradient_integral(std::uint32_t kernel, double distance, double support_radius)
-{
-    const double q = std::abs(distance) / support_radius;
-    if (q >= 1.0) {
-        return 0.0;
-    }
-    const double u = 1.0 - q;
-    const double u4 = u * u * u * u;
-    if (kernel == shared::KERNEL_PAPER) {
-        return 3.0 / (2.0 * support_radius) * u4 * (1.0 + 4.0 * q);
-    }
-    return 21.0 / support_radius * u4 * u * (1.0 - 3.0 * u / 2.0 + 4.0 * u * u / 7.0);
-}
-
 double wall_viscosity_integral(std::uint32_t kernel, double distance, double support_radius)
 {
     if (distance < 0.0) {
@@ -192,35 +158,6 @@ double wall_viscosity_integral(std::uint32_t kernel, double distance, double sup
     return 14.0 * per_area * u * u * u * u * u * (1.0 + 2.0 * q);
 }
 
-WallCalibration calibrate_wall(std::uint32_t kernel, double support_radius, double spacing)
-{
-    const double ratio = checked_support_ratio(support_radius, spacing);
-    const KernelScales scale = continuum_scales(kernel, ratio);
-    const LatticeMoments moments = lattice_moments(kernel, support_radius, spacing);
-
-    // What a particle of the first layer misses: the lattice sites beyond the wall.
-    double missing_density = 0.0;
-    double missing_gradient = 0.0;
-    for_each_lattice_site(ratio, [&](int x, double r) {
-        if (x < 0) {
-            missing_density += scale.density * density_shape(kernel, r / ratio);
-            missing_gradient += -x / r * scale.gradient * gradient_shape(kernel, r / ratio);
-        }
-    });
-    missing_density /= moments.density;
-    missing_gradient /= moments.gradient;
-
-    // The density integral falls with distance: bisect for the distance at which it is what the lattice misses.
-    double low = -ratio;
-    double high = ratio;
-    for (int i = 0; i < 100; ++i) {
-        const double middle = 0.5 * (low + high);
-        (wall_density_integral(kernel, middle, ratio) > missing_density ? low : high) = middle;
-    }
-    return {.density_offset = (low - 0.5) * spacing,
-            .gradient_scale = missing_gradient / wall_gradient_integral(kernel, 0.5, ratio)};
-}
-
 void set_kernel_scales(shared::SphParams& params, std::uint32_t kernel, double spacing)
 {
     const double support_radius = static_cast<double>(params.support_radius);
@@ -231,10 +168,6 @@ void set_kernel_scales(shared::SphParams& params, std::uint32_t kernel, double s
     params.viscosity_scale = static_cast<float>(scale.viscosity / moments.viscosity);
     params.color_gradient_scale = static_cast<float>(scale.color_gradient / moments.color_gradient);
     params.color_laplacian_scale = static_cast<float>(scale.color_laplacian / moments.color_laplacian);
-
-    const WallCalibration wall = calibrate_wall(kernel, support_radius, spacing);
-    params.wall_density_offset = static_cast<float>(wall.density_offset);
-    params.wall_gradient_scale = static_cast<float>(wall.gradient_scale);
 
     const double rate = static_cast<double>(params.speed_of_sound) / spacing; // sound crosses a spacing in 1/rate
     params.contact_distance = static_cast<float>(0.25 * spacing);

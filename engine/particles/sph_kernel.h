@@ -55,30 +55,12 @@ struct LatticeMoments {
 inline constexpr double MIN_SUPPORT_RATIO = 1.2; ///< below, a lattice has hardly any neighbors left
 inline constexpr double MAX_SUPPORT_RATIO = 8.0; ///< above, a particle has more than 2100 neighbors
 
-/// Plane integrals: what the half space beyond a plane wall adds. `distance` is the particle's signed distance to the
-/// wall in meters, positive inside; the kernels are those of the continuum. Integral of W, dimensionless: 1/2 on the
-/// plane, 0 at distance >= H, 1 at distance <= -H.
-[[nodiscard]] double wall_density_integral(std::uint32_t kernel, double distance, double support_radius);
-
-/// Length of the integral of the pressure kernel's gradient, 1/m: by the divergence theorem, the integral of W over the
-/// plane.
-[[nodiscard]] double wall_gradient_integral(std::uint32_t kernel, double distance, double support_radius);
-
-/// Integral of L, 1/m^2.
+/// What the half space beyond a plane wall adds to the sum of L, 1/m^2: its integral there. `distance` is the
+/// particle's signed distance to the wall in meters, positive inside; the kernel is that of the continuum.
 [[nodiscard]] double wall_viscosity_integral(std::uint32_t kernel, double distance, double support_radius);
 
-/// A plane is no lattice: these make a cubic lattice whose first layer lies half a spacing off a wall fit the plane
-/// integrals. Then a particle of the first layer has exactly rest density and feels no force under constant pressure.
-struct WallCalibration {
-    double density_offset; ///< m, added to the distance in the density integral
-    double gradient_scale; ///< factor of the gradient integral, lattice moment included
-};
-
-/// Throws as lattice_moments does.
-[[nodiscard]] WallCalibration calibrate_wall(std::uint32_t kernel, double support_radius, double spacing);
-
 /// Fills what follows from kernel, spacing (m), support radius and speed of sound: the five kernel scales divided by
-/// their lattice moments, the wall calibration and the contact spring. params.support_radius and params.speed_of_sound
+/// their lattice moments, and the contact spring. params.support_radius and params.speed_of_sound
 /// must be set. Throws as lattice_moments does.
 void set_kernel_scales(shared::SphParams& params, std::uint32_t kernel, double spacing);
 

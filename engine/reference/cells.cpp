@@ -1,6 +1,6 @@
-// Neighbor search by sorting particles into cubic cells, one support radius wide; a row of three cells is one
-// contiguous range of the sorted particles. Unlike the GPU's grid it is unbounded: positions anywhere find their
-// neighbors.
+// Neighbor search by sorting particles and their images into cubic cells, one support radius wide; a row of three cells
+// is one contiguous range. Unlike the GPU's grid it is unbounded, and images are entries of their own: positions
+// anywhere find their neighbors.
 #include "reference/cells.h"
 
 #include <algorithm>
@@ -13,9 +13,10 @@ namespace {
 
 using Cell = glm::i64vec3;
 
-struct SortedParticle {
+struct Entry {
     Cell cell;
-    std::uint32_t index;
+    Neighbor neighbor;
+    glm::dvec3 position; // of the image
 };
 
 // Row by row: z first, x last.
@@ -44,7 +45,31 @@ bool are_neighbors(const glm::dvec3& a, const glm::dvec3& b, double support_radi
     return glm::dot(r, r) < support_radius * support_radius;
 }
 
-Neighbors concatenate(const std::vector<std::vector<std::uint32_t>>& lists)
+// Every set of walls out of `available` with at most one wall an axis, the empty set first.
+std::vector<Reflection> reflections(std::uint32_t available)
+{
+    std::vector<Reflection> all;
+    for (Reflection walls = 0; walls < 64; ++walls) {
+        const bool both_of_an_axis = (walls & (walls >> 1) & 0b010101u) != 0u;
+        if ((walls & ~available) == 0u && !both_of_an_axis) {
+            all.push_back(walls);
+        }
+    }
+    return all;
+}
+
+std::uint32_t walls_within(const shared::SphParams& params, const glm::dvec3& position, double distance)
+{
+    std::uint32_t near = 0;
+    for (int wall = 0; wall < 6; ++wall) {
+        const int axis = wall / 2;
+        const double plane = static_cast<double>(wall % 2 == 1 ? params.domain_max[axis] : params.domain_min[axis]);
+        near |= std::abs(position[axis] - plane) < distance ? 1u << wall : 0u;
+    }
+    return near & params.wall_mask;
+}
+
+Neighbors concatenate(const std::vector<std::vector<Neighbor>>& lists)
 {
     Neighbors neighbors;
     neighbors.start.reserve(lists.size() + 1);
@@ -52,63 +77,75 @@ Neighbors concatenate(const std::vector<std::vector<std::uint32_t>>& lists)
     for (const auto& list : lists) {
         neighbors.start.push_back(neighbors.start.back() + list.size());
     }
-    neighbors.index.resize(neighbors.start.back());
-    parallel_for(lists.size(), [&](std::size_t i) {
-        std::copy(lists[i].begin(), lists[i].end(),
-                  neighbors.index.begin() + static_cast<std::ptrdiff_t>(neighbors.start[i]));
-    });
+    neighbors.list.reserve(neighbors.start.back());
+    for (const auto& list : lists) {
+        neighbors.list.insert(neighbors.list.end(), list.begin(), list.end());
+    }
     return neighbors;
 }
 
 } // namespace
 
-Neighbors find_neighbors(std::span<const glm::dvec3> position, double support_radius)
+Neighbors find_neighbors(const shared::SphParams& params, std::span<const glm::dvec3> position)
 {
+    const double support_radius = static_cast<double>(params.support_radius);
     // A hair wider, so that rounding never puts neighbors two cells apart.
     const double cell_size = support_radius * (1.0 + 1e-9);
 
-    std::vector<SortedParticle> sorted;
-    sorted.reserve(position.size());
-    for (std::size_t i = 0; i < position.size(); ++i) {
-        if (is_finite(position[i])) {
-            sorted.push_back({cell_of(position[i], cell_size), static_cast<std::uint32_t>(i)});
+    std::vector<Entry> entries;
+    entries.reserve(position.size());
+    for (std::uint32_t j = 0; j < position.size(); ++j) {
+        if (!is_finite(position[j])) {
+            continue;
+        }
+        for (const Reflection reflection : reflections(walls_within(params, position[j], support_radius))) {
+            const glm::dvec3 image = reflect_position(params, reflection, position[j]);
+            entries.push_back({cell_of(image, cell_size), {j, reflection}, image});
         }
     }
-    std::sort(sorted.begin(), sorted.end(), [](const SortedParticle& a, const SortedParticle& b) {
-        return a.cell == b.cell ? a.index < b.index : cell_less(a.cell, b.cell);
+    std::sort(entries.begin(), entries.end(), [](const Entry& a, const Entry& b) {
+        return a.cell == b.cell ? a.neighbor < b.neighbor : cell_less(a.cell, b.cell);
     });
 
-    std::vector<std::vector<std::uint32_t>> lists(position.size());
-    parallel_for(sorted.size(), [&](std::size_t k) {
-        const auto [cell, i] = sorted[k];
-        std::vector<std::uint32_t>& list = lists[i];
+    std::vector<std::vector<Neighbor>> lists(position.size());
+    parallel_for(position.size(), [&](std::size_t i) {
+        if (!is_finite(position[i])) {
+            return;
+        }
+        const Neighbor itself{static_cast<std::uint32_t>(i), 0};
+        const Cell cell = cell_of(position[i], cell_size);
         for (std::int64_t dz = -1; dz <= 1; ++dz) {
             for (std::int64_t dy = -1; dy <= 1; ++dy) {
                 const Cell first = cell + Cell(-1, dy, dz);
                 const Cell last = cell + Cell(1, dy, dz);
-                auto particle =
-                    std::lower_bound(sorted.begin(), sorted.end(), first,
-                                     [](const SortedParticle& p, const Cell& c) { return cell_less(p.cell, c); });
-                for (; particle != sorted.end() && !cell_less(last, particle->cell); ++particle) {
-                    const std::uint32_t j = particle->index;
-                    if (j != i && are_neighbors(position[i], position[j], support_radius)) {
-                        list.push_back(j);
+                auto entry = std::lower_bound(entries.begin(), entries.end(), first,
+                                              [](const Entry& e, const Cell& c) { return cell_less(e.cell, c); });
+                for (; entry != entries.end() && !cell_less(last, entry->cell); ++entry) {
+                    if (entry->neighbor != itself && are_neighbors(position[i], entry->position, support_radius)) {
+                        lists[i].push_back(entry->neighbor);
                     }
                 }
             }
         }
-        std::sort(list.begin(), list.end());
+        std::sort(lists[i].begin(), lists[i].end());
     });
     return concatenate(lists);
 }
 
-Neighbors find_neighbors_by_brute_force(std::span<const glm::dvec3> position, double support_radius)
+Neighbors find_neighbors_by_brute_force(const shared::SphParams& params, std::span<const glm::dvec3> position)
 {
-    std::vector<std::vector<std::uint32_t>> lists(position.size());
+    const std::vector<Reflection> all_reflections = reflections(params.wall_mask);
+    std::vector<std::vector<Neighbor>> lists(position.size());
     parallel_for(position.size(), [&](std::size_t i) {
-        for (std::size_t j = 0; j < position.size(); ++j) {
-            if (j != i && are_neighbors(position[i], position[j], support_radius)) {
-                lists[i].push_back(static_cast<std::uint32_t>(j));
+        const Neighbor itself{static_cast<std::uint32_t>(i), 0};
+        for (std::uint32_t j = 0; j < position.size(); ++j) {
+            for (const Reflection reflection : all_reflections) {
+                const Neighbor neighbor{j, reflection};
+                const glm::dvec3 image = reflect_position(params, reflection, position[j]);
+                if (neighbor != itself &&
+                    are_neighbors(position[i], image, static_cast<double>(params.support_radius))) {
+                    lists[i].push_back(neighbor);
+                }
             }
         }
     });

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <compare>
 #include <cstddef>
 #include <cstdint>
 #include <span>
@@ -7,24 +8,37 @@
 
 #include <glm/glm.hpp>
 
+#include "reference/walls.h"
+
 namespace meltpoint::reference {
 
-/// The neighbors of every particle: all others nearer than the support radius, in ascending order of index.
+/// A particle or its image behind walls, as seen by another one.
+struct Neighbor {
+    std::uint32_t index;   ///< of the particle in the state
+    Reflection reflection; ///< 0: the particle itself
+
+    auto operator<=>(const Neighbor&) const = default;
+};
+
+/// The neighbors of every particle: all others, and all images of others and of itself, nearer than the support radius;
+/// in ascending order of index, then reflection.
 struct Neighbors {
     std::vector<std::size_t>
-        start; ///< one more than particles: those of i are index[start[i]] .. index[start[i + 1] - 1]
-    std::vector<std::uint32_t> index; ///< of the particles in the state
+        start; ///< one more than particles: those of i are list[start[i]] .. list[start[i + 1] - 1]
+    std::vector<Neighbor> list;
 
-    [[nodiscard]] std::span<const std::uint32_t> of(std::size_t i) const
+    [[nodiscard]] std::span<const Neighbor> of(std::size_t i) const
     {
-        return {index.data() + start[i], start[i + 1] - start[i]};
+        return {list.data() + start[i], start[i + 1] - start[i]};
     }
 };
 
-/// Positions and support_radius in meters. Particles that are not finite have no neighbors.
-[[nodiscard]] Neighbors find_neighbors(std::span<const glm::dvec3> position, double support_radius);
+/// Positions in meters; support radius, domain and walls are those of params. Particles that are not finite have no
+/// neighbors.
+[[nodiscard]] Neighbors find_neighbors(const shared::SphParams& params, std::span<const glm::dvec3> position);
 
-/// The same by trying every pair: the truth that both grids are held to.
-[[nodiscard]] Neighbors find_neighbors_by_brute_force(std::span<const glm::dvec3> position, double support_radius);
+/// The same by trying every pair and every reflection: the truth that both grids are held to.
+[[nodiscard]] Neighbors find_neighbors_by_brute_force(const shared::SphParams& params,
+                                                      std::span<const glm::dvec3> position);
 
 } // namespace meltpoint::reference

@@ -16,14 +16,11 @@ double density(const Settings& settings, const State& state, const Neighbors& ne
 {
     const double support_radius = static_cast<double>(settings.params.support_radius);
     double number_density = density_shape(settings.kernel, 0.0);
-    for (const std::uint32_t j : neighbors.of(i)) {
-        const double r = glm::length(state.position[i] - state.position[j]);
-        number_density += density_shape(settings.kernel, r / support_radius);
+    for (const Neighbor& neighbor : neighbors.of(i)) {
+        const glm::dvec3 image = reflect_position(settings.params, neighbor.reflection, state.position[neighbor.index]);
+        number_density += density_shape(settings.kernel, glm::length(state.position[i] - image) / support_radius);
     }
-    number_density *= static_cast<double>(settings.params.density_scale);
-
-    const double beyond_walls = 1.0 - inside_fraction(settings, state.position[i]);
-    return state.mass[i] * number_density + rest_density(settings, state, i) * beyond_walls;
+    return state.mass[i] * static_cast<double>(settings.params.density_scale) * number_density;
 }
 
 double pressure(const shared::SphParams& params, double density, double rest_density)

@@ -18,20 +18,28 @@ double volume(const State& state, std::size_t i)
     return state.mass[i] / state.density[i];
 }
 
-// A pair as particle i sees it: q = r/H, and the direction from j to i, zero for coincident particles.
+// A pair as particle i sees it.
 struct Pair {
-    double q;
-    glm::dvec3 direction;
+    std::size_t j;
+    double q;             // r/H
+    glm::dvec3 direction; // unit vector from j, or its image, to i; zero for coincident particles
+    glm::dvec3 velocity;  // of j, or its image
     bool coincident;
 };
 
-Pair make_pair(const Settings& settings, const State& state, std::size_t i, std::size_t j)
+Pair make_pair(const Settings& settings, const State& state, std::size_t i, const Neighbor& neighbor)
 {
-    const glm::dvec3 offset = state.position[i] - state.position[j];
+    const std::size_t j = neighbor.index;
+    const glm::dvec3 image = reflect_position(settings.params, neighbor.reflection, state.position[j]);
+    const glm::dvec3 offset = state.position[i] - image;
     const double r = glm::length(offset);
     const double q = r / static_cast<double>(settings.params.support_radius);
     const bool coincident = q < static_cast<double>(shared::COINCIDENT_RATIO);
-    return {q, coincident ? glm::dvec3(0.0) : offset / r, coincident};
+    return {.j = j,
+            .q = q,
+            .direction = coincident ? glm::dvec3(0.0) : offset / r,
+            .velocity = reflect_velocity(neighbor.reflection, state.velocity[j]),
+            .coincident = coincident};
 }
 
 } // namespace
@@ -43,10 +51,10 @@ VectorSum pressure_acceleration(const Settings& settings, const State& state, co
         return state.pressure[k] * volume(state, k) * volume(state, k);
     };
     VectorSum sum;
-    for (const std::uint32_t j : neighbors.of(i)) {
-        const Pair pair = make_pair(settings, state, i, j);
+    for (const Neighbor& neighbor : neighbors.of(i)) {
+        const Pair pair = make_pair(settings, state, i, neighbor);
         const glm::dvec3 kernel_gradient = -scale * gradient_shape(settings.kernel, pair.q) * pair.direction;
-        sum.add(-(weight(i) + weight(j)) / state.mass[i] * kernel_gradient);
+        sum.add(-(weight(i) + weight(pair.j)) / state.mass[i] * kernel_gradient);
     }
     return sum;
 }
@@ -57,10 +65,10 @@ VectorSum viscosity_acceleration(const Settings& settings, const State& state, c
     const double scale = static_cast<double>(settings.params.viscosity_scale);
     const double factor = static_cast<double>(settings.params.viscosity) * volume(state, i) / state.mass[i];
     VectorSum sum;
-    for (const std::uint32_t j : neighbors.of(i)) {
-        const Pair pair = make_pair(settings, state, i, j);
+    for (const Neighbor& neighbor : neighbors.of(i)) {
+        const Pair pair = make_pair(settings, state, i, neighbor);
         const double laplacian = scale * viscosity_shape(settings.kernel, pair.q);
-        sum.add(factor * volume(state, j) * laplacian * (state.velocity[j] - state.velocity[i]));
+        sum.add(factor * volume(state, pair.j) * laplacian * (pair.velocity - state.velocity[i]));
     }
     return sum;
 }
@@ -75,11 +83,11 @@ ColorField color_field(const Settings& settings, const State& state, const Neigh
         color.laplacian_magnitude += std::abs(term);
     };
     add_laplacian(-volume(state, i) * laplacian_scale * color_laplacian_shape(settings.kernel, 0.0));
-    for (const std::uint32_t j : neighbors.of(i)) {
-        const Pair pair = make_pair(settings, state, i, j);
-        color.gradient.add(-volume(state, j) * gradient_scale * color_gradient_shape(settings.kernel, pair.q) *
+    for (const Neighbor& neighbor : neighbors.of(i)) {
+        const Pair pair = make_pair(settings, state, i, neighbor);
+        color.gradient.add(-volume(state, pair.j) * gradient_scale * color_gradient_shape(settings.kernel, pair.q) *
                            pair.direction);
-        add_laplacian(-volume(state, j) * laplacian_scale * color_laplacian_shape(settings.kernel, pair.q));
+        add_laplacian(-volume(state, pair.j) * laplacian_scale * color_laplacian_shape(settings.kernel, pair.q));
     }
     return color;
 }
@@ -100,21 +108,6 @@ VectorSum tension_acceleration(const Settings& settings, const State& state, con
     return {-factor * color.laplacian * color.gradient.value / length, factor * color.laplacian_magnitude};
 }
 
-VectorSum wall_pressure_acceleration(const Settings& settings, const State& state, std::size_t i)
-{
-    const double support_radius = static_cast<double>(settings.params.support_radius);
-    const double scale = static_cast<double>(settings.params.wall_gradient_scale);
-    VectorSum sum;
-    for_each_wall(settings.params, state.position[i], [&](double distance, const glm::dvec3& normal, int wall) {
-        const double gradient = scale * wall_gradient_integral(settings.kernel, distance, support_radius);
-        if (gradient > 0.0) {
-            const double uncovered = inside_fraction(settings, state.position[i], wall);
-            sum.add(2.0 * state.pressure[i] / state.density[i] * gradient * uncovered * normal);
-        }
-    });
-    return sum;
-}
-
 VectorSum wall_viscosity_acceleration(const Settings& settings, const State& state, std::size_t i)
 {
     const double support_radius = static_cast<double>(settings.params.support_radius);
@@ -122,7 +115,7 @@ VectorSum wall_viscosity_acceleration(const Settings& settings, const State& sta
                           static_cast<double>(settings.params.viscosity_scale);
     const double factor = static_cast<double>(settings.params.wall_viscosity) / (state.density[i] * moment);
     VectorSum sum;
-    for_each_wall(settings.params, state.position[i], [&](double distance, const glm::dvec3&, int) {
+    for_each_wall(settings.params, state.position[i], [&](double distance, const glm::dvec3&) {
         sum.add(-factor * wall_viscosity_integral(settings.kernel, distance, support_radius) * state.velocity[i]);
     });
     return sum;
@@ -134,7 +127,7 @@ VectorSum contact_acceleration(const Settings& settings, const State& state, std
     const double stiffness = static_cast<double>(settings.params.contact_stiffness);
     const double damping = static_cast<double>(settings.params.contact_damping);
     VectorSum sum;
-    for_each_wall(settings.params, state.position[i], [&](double distance, const glm::dvec3& normal, int) {
+    for_each_wall(settings.params, state.position[i], [&](double distance, const glm::dvec3& normal) {
         if (distance < reach) {
             const double push = stiffness * (reach - distance) - damping * glm::dot(state.velocity[i], normal);
             sum.add(std::max(0.0, push) * normal);
@@ -147,8 +140,7 @@ Accelerations accelerations(const Settings& settings, const State& state, const 
 {
     const std::size_t count = state.size();
     Accelerations a;
-    for (auto* term :
-         {&a.pressure, &a.viscosity, &a.tension, &a.wall_pressure, &a.wall_viscosity, &a.contact, &a.total}) {
+    for (auto* term : {&a.pressure, &a.viscosity, &a.tension, &a.wall_viscosity, &a.contact, &a.total}) {
         term->resize(count);
     }
     std::vector<std::uint32_t> coincident(count, 0u);
@@ -156,16 +148,14 @@ Accelerations accelerations(const Settings& settings, const State& state, const 
         a.pressure[i] = pressure_acceleration(settings, state, neighbors, i);
         a.viscosity[i] = viscosity_acceleration(settings, state, neighbors, i);
         a.tension[i] = tension_acceleration(settings, state, neighbors, i);
-        a.wall_pressure[i] = wall_pressure_acceleration(settings, state, i);
         a.wall_viscosity[i] = wall_viscosity_acceleration(settings, state, i);
         a.contact[i] = contact_acceleration(settings, state, i);
         a.total[i].add(glm::dvec3(settings.params.gravity));
-        for (const auto* term :
-             {&a.pressure, &a.viscosity, &a.tension, &a.wall_pressure, &a.wall_viscosity, &a.contact}) {
+        for (const auto* term : {&a.pressure, &a.viscosity, &a.tension, &a.wall_viscosity, &a.contact}) {
             a.total[i].add((*term)[i]);
         }
-        for (const std::uint32_t j : neighbors.of(i)) {
-            coincident[i] += make_pair(settings, state, i, j).coincident ? 1u : 0u;
+        for (const Neighbor& neighbor : neighbors.of(i)) {
+            coincident[i] += make_pair(settings, state, i, neighbor).coincident ? 1u : 0u;
         }
     });
     a.coincident_pairs = std::accumulate(coincident.begin(), coincident.end(), 0u);

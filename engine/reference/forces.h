@@ -30,8 +30,8 @@ struct VectorSum {
 };
 
 /// Twins of sim/forces.comp, one function a term: acceleration of particle i in m/s^2. They read density, pressure and
-/// velocity from the state; velocity is that of the half step. Pairs nearer than COINCIDENT_RATIO support radii have no
-/// gradient.
+/// velocity from the state; velocity is that of the half step. Sums over j include the images behind walls. Pairs
+/// nearer than COINCIDENT_RATIO support radii have no gradient.
 
 /// -(1/m_i) sum_j (p_i V_i^2 + p_j V_j^2) grad W_ij with V = m/rho.
 [[nodiscard]] VectorSum pressure_acceleration(const Settings& settings, const State& state, const Neighbors& neighbors,
@@ -55,10 +55,8 @@ struct ColorField {
 [[nodiscard]] VectorSum tension_acceleration(const Settings& settings, const State& state, const Neighbors& neighbors,
                                              std::size_t i);
 
-/// Walls as half spaces of fluid with the particle's own pressure and volume.
-[[nodiscard]] VectorSum wall_pressure_acceleration(const Settings& settings, const State& state, std::size_t i);
-
-/// Walls as half spaces of fluid at rest with viscosity params.wall_viscosity.
+/// Friction of the walls: half spaces of fluid at rest with viscosity params.wall_viscosity. Without it walls let fluid
+/// slip.
 [[nodiscard]] VectorSum wall_viscosity_acceleration(const Settings& settings, const State& state, std::size_t i);
 
 /// The damped spring that holds a particle nearer to a wall than params.contact_distance. It never pulls.
@@ -69,7 +67,6 @@ struct Accelerations {
     std::vector<VectorSum> pressure;
     std::vector<VectorSum> viscosity;
     std::vector<VectorSum> tension;
-    std::vector<VectorSum> wall_pressure;
     std::vector<VectorSum> wall_viscosity;
     std::vector<VectorSum> contact;
     std::vector<VectorSum> total;       ///< all of the above and gravity

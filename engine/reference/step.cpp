@@ -10,7 +10,7 @@ namespace meltpoint::reference {
 
 void evaluate(const Settings& settings, State& state)
 {
-    const Neighbors neighbors = find_neighbors(state.position, static_cast<double>(settings.params.support_radius));
+    const Neighbors neighbors = find_neighbors(settings.params, state.position);
     update_density(settings, state, neighbors);
     const Accelerations a = accelerations(settings, state, neighbors);
     parallel_for(state.size(), [&](std::size_t i) { state.acceleration[i] = a.total[i].value; });

@@ -1,13 +1,14 @@
 #pragma once
 
+#include <cstdint>
+
 #include <glm/glm.hpp>
 
 #include "reference/state.h"
 
 namespace meltpoint::reference {
 
-/// Calls body(signed distance in meters, positive inside; inward unit normal; wall number 0..5) for every wall of the
-/// domain.
+/// Calls body(signed distance in meters, positive inside; inward unit normal) for every wall of the domain.
 template <class Body>
 void for_each_wall(const shared::SphParams& params, const glm::dvec3& position, const Body& body)
 {
@@ -20,15 +21,34 @@ void for_each_wall(const shared::SphParams& params, const glm::dvec3& position, 
         const double plane = static_cast<double>(at_max ? params.domain_max[axis] : params.domain_min[axis]);
         glm::dvec3 normal(0.0);
         normal[axis] = at_max ? -1.0 : 1.0;
-        body(normal[axis] * (position[axis] - plane), normal, wall);
+        body(normal[axis] * (position[axis] - plane), normal);
     }
 }
 
-/// No wall has this number: leave_out for a product over all walls.
-inline constexpr int NO_WALL = -1;
+/// A set of walls, at most one an axis, that a particle is reflected across: bits as in SphParams::wall_mask. 0 is the
+/// particle itself.
+using Reflection = std::uint32_t;
 
-/// Fraction of the kernel that lies inside all walls but leave_out: the product over the walls of what each leaves.
-/// That is exact for one wall, and in a corner as good as the kernel is close to a product of functions of x, y and z.
-[[nodiscard]] double inside_fraction(const Settings& settings, const glm::dvec3& position, int leave_out = NO_WALL);
+[[nodiscard]] inline glm::dvec3 reflect_position(const shared::SphParams& params, Reflection walls, glm::dvec3 position)
+{
+    for (int axis = 0; axis < 3; ++axis) {
+        if ((walls >> (2 * axis) & 1u) != 0u) {
+            position[axis] = 2.0 * static_cast<double>(params.domain_min[axis]) - position[axis];
+        } else if ((walls >> (2 * axis + 1) & 1u) != 0u) {
+            position[axis] = 2.0 * static_cast<double>(params.domain_max[axis]) - position[axis];
+        }
+    }
+    return position;
+}
+
+[[nodiscard]] inline glm::dvec3 reflect_velocity(Reflection walls, glm::dvec3 velocity)
+{
+    for (int axis = 0; axis < 3; ++axis) {
+        if ((walls >> (2 * axis) & 3u) != 0u) {
+            velocity[axis] = -velocity[axis];
+        }
+    }
+    return velocity;
+}
 
 } // namespace meltpoint::reference

@@ -6,6 +6,10 @@
 //
 // Lattice moments: sums over a lattice of the scene's spacing miss the continuum integrals by some percent, so every kernel
 // scale below is already divided by its moment on that lattice (design note: README, "Moments").
+//
+// Walls are mirrors: a particle nearer to walls than the support radius also meets the images of its neighbors and of itself
+// behind them, reflected across one, two or three walls, with their density, pressure and reflected velocity. So a wall
+// supplies density and pressure, conserves energy and lets fluid slip; a lattice half a spacing off a wall does not notice it.
 #ifndef MELTPOINT_SHARED_SPH_PARAMS_H
 #define MELTPOINT_SHARED_SPH_PARAMS_H
 #include "prelude.h"
@@ -53,12 +57,6 @@ struct SphParams {
     float viscosity_scale;       // paper: lap = scale (1-q)           wendland: lap = scale (1-q)^3           [1/m^5]
     float color_gradient_scale;  // paper: W' = -scale q (1-q^2)^2     wendland: as gradient_scale             [1/m^4]
     float color_laplacian_scale; // paper: lap = -scale (1-q^2)(3-7q^2)   wendland: lap = -scale (1-q)^2 (1-2q) [1/m^5]
-
-    // Walls are half spaces of fluid at rest, integrated exactly over the kernel (plane integrals of s = distance to the
-    // wall, positive inside). Calibrated so that a lattice whose first layer lies d/2 off the wall has density rho0 and
-    // feels no net force under constant pressure.
-    float wall_density_offset; // m, added to s in the density integral
-    float wall_gradient_scale; // factor of the gradient integral (moment included)
 
     // A lone particle never reaches rest density at a plane, so pressure alone cannot hold it: a damped spring acts nearer
     // than contact_distance, where fluid in bulk never settles.

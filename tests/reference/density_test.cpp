@@ -18,11 +18,7 @@ protected:
     Settings settings = make_settings(GetParam(), D, ratio);
     State state;
 
-    void update()
-    {
-        update_density(settings, state,
-                       find_neighbors(state.position, static_cast<double>(settings.params.support_radius)));
-    }
+    void update() { update_density(settings, state, find_neighbors(settings.params, state.position)); }
     [[nodiscard]] std::size_t nearest(const glm::dvec3& position) const
     {
         std::size_t best = 0;
@@ -70,11 +66,8 @@ TEST_P(ReferenceDensity, LatticeFillingABoxHasRestDensityAtEveryWallEdgeAndCorne
     settings.params.wall_mask = 63;
     add_lattice(state, glm::dvec3(0.5 * D), glm::ivec3(n), D);
     update();
-    EXPECT_NEAR(state.density[nearest(glm::dvec3(0.0, 0.5 * n * D, 0.5 * n * D))], 1000.0, 1e-2); // calibrated
-    // Elsewhere a plane is not quite a lattice: the second layer of Wendland has 0.55 % too much for each wall that it
-    // sees.
     for (std::size_t i = 0; i < state.size(); ++i) {
-        EXPECT_NEAR(state.density[i], 1000.0, 17.0)
+        EXPECT_NEAR(state.density[i], 1000.0, 1e-2)
             << "at " << state.position[i].x / D << " " << state.position[i].y / D << " " << state.position[i].z / D
             << " spacings";
     }
@@ -90,19 +83,7 @@ TEST_P(ReferenceDensity, WallsOfTheMaskOnly)
     update();
     EXPECT_NEAR(state.density[0], state.density[3], 1e-9);
     EXPECT_NEAR(state.density[1], state.density[2], 1e-3);
-    EXPECT_GT(state.density[1], state.density[0] + 200.0);
-}
-
-TEST_P(ReferenceDensity, WallsCountInTheParticlesOwnRestDensity)
-{
-    settings.params.wall_mask = 1;
-    settings.params.rest_density[5] = 3000.0f;
-    add_particle(state, {0.0, 0.5, 0.5}, D);
-    add_particle(state, {0.0, 0.5, 0.2}, D);
-    state.attributes[1] = shared::pack_attributes(shared::STATE_FLUID, 5);
-    state.mass[1] *= 3.0;
-    update();
-    EXPECT_NEAR(state.density[1], 3.0 * state.density[0], 1e-9 * state.density[1]);
+    EXPECT_GT(state.density[1], state.density[0] + 50.0);
 }
 
 TEST(StateEquation, Linear)

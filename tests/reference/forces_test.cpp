@@ -29,10 +29,7 @@ protected:
     Settings settings = make_settings(GetParam(), D, ratio);
     State state;
 
-    [[nodiscard]] Neighbors neighbors() const
-    {
-        return find_neighbors(state.position, static_cast<double>(settings.params.support_radius));
-    }
+    [[nodiscard]] Neighbors neighbors() const { return find_neighbors(settings.params, state.position); }
 
     // Lattice of (2 n + 1)^3 particles around the middle of the domain; returns the index of the central one.
     std::size_t add_cube(int n)
@@ -190,37 +187,85 @@ TEST_P(ReferenceForces, ColorGradientOfAHalfSpaceIsOneSidedDelta)
 // --- walls
 // ------------------------------------------------------------------------------------------------------------
 
-TEST_P(ReferenceForces, UniformPressureInABoxPushesNoParticleOfAFirstLayer)
+TEST_P(ReferenceForces, LatticeFillingABoxDoesNotNoticeTheWalls)
 {
     const int n = 9;
     settings.params.domain_max = glm::vec3(static_cast<float>(n * D));
     settings.params.wall_mask = 63;
+    settings.params.surface_tension = 1.0f;
     add_lattice(state, glm::dvec3(0.5 * D), glm::ivec3(n), D);
     std::fill(state.pressure.begin(), state.pressure.end(), 1000.0);
     const Accelerations a = accelerations(settings, state, neighbors());
     for (std::size_t i = 0; i < state.size(); ++i) {
-        const glm::dvec3 x = state.position[i] / D;
-        const bool first_of_x = x.x < 1.0 && std::abs(x.y - 4.5) < 0.1 && std::abs(x.z - 4.5) < 0.1;
-        if (first_of_x) {
-            EXPECT_GT(a.wall_pressure[i].value.x, 0.2 * a.total[i].magnitude); // inward, against the fluid's push
-            expect_near(a.total[i].value, glm::dvec3(0.0), 1e-5 * a.total[i].magnitude);
-        }
-        // Elsewhere planes are not quite lattices: in the second layer, edges and corners a rest remains,
-        // largest in the corners of the paper kernel: 5.2 % of 2 p / (rho d).
-        EXPECT_LT(glm::length(a.total[i].value), 0.06 * 2.0 * 1000.0 / 1000.0 / D);
+        EXPECT_EQ(a.tension[i].value, glm::dvec3(0.0));
+        EXPECT_GT(a.total[i].magnitude, 100.0);
+        expect_near(a.total[i].value, glm::dvec3(0.0), 1e-5 * a.total[i].magnitude);
     }
 }
 
-TEST_P(ReferenceForces, WallPressureIsThePlaneIntegral)
+TEST_P(ReferenceForces, WallPushesAParticleAsItsImageWould)
 {
     settings.params.wall_mask = 1u << 3; // maximum of y
-    add_particle(state, {0.5, 1.0 - 0.8 * D, 0.5}, D);
+    add_particle(state, {0.5, 1.0 - 0.4 * D, 0.5}, D);
     state.pressure[0] = 700.0;
-    state.density[0] = 1050.0;
-    const double integral =
-        wall_gradient_integral(GetParam(), 0.8 * D, h) * calibrate_wall(GetParam(), h, D).gradient_scale;
-    const VectorSum a = wall_pressure_acceleration(settings, state, 0);
-    expect_near(a.value, {0.0, -2.0 * 700.0 / 1050.0 * integral, 0.0}, 1e-5 * a.magnitude);
+    const Accelerations wall = accelerations(settings, state, neighbors());
+    add_particle(state, {0.5, 1.0 + 0.4 * D, 0.5}, D);
+    state.pressure[1] = 700.0;
+    settings.params.wall_mask = 0;
+    const Accelerations pair = accelerations(settings, state, neighbors());
+    EXPECT_LT(wall.pressure[0].value.y, 0.0);
+    expect_near(wall.pressure[0].value, pair.pressure[0].value, 1e-12 * pair.pressure[0].magnitude);
+}
+
+TEST_P(ReferenceForces, FluidSlipsAlongAWallAndResistsComingNearer)
+{
+    settings.params.viscosity = 0.7f;
+    settings.params.wall_mask = 1u << 2;
+    add_particle(state, {0.5, 0.3 * D, 0.5}, D, {0.4, -0.1, 0.2});
+    const VectorSum a = viscosity_acceleration(settings, state, neighbors(), 0);
+    EXPECT_EQ(a.value.x, 0.0);
+    EXPECT_GT(a.value.y, 0.0);
+    EXPECT_EQ(a.value.z, 0.0);
+}
+
+TEST_P(ReferenceForces, EnergyOfAWallIsConserved)
+{
+    // Pressure forces are the derivative of the energy sum m u(rho), walls included: moving a particle changes the sum
+    // of p/rho^2 m drho by its force. True of one kernel for density and pressure, so of Wendland.
+    if (paper) {
+        return;
+    }
+    settings.params.wall_mask = 63;
+    settings.params.clamp_pressure = 0;
+    Random random(8);
+    add_lattice(state, glm::dvec3(0.3 * D), glm::ivec3(5), 0.9 * D);
+    for (glm::dvec3& position : state.position) {
+        position += 0.1 * D * random_vector(random);
+    }
+    // The lattice moments of density and gradient differ a little: undo them, as only the kernels of the continuum are
+    // a pair.
+    const KernelScales scale = continuum_scales(GetParam(), h);
+    settings.params.density_scale = static_cast<float>(scale.density);
+    settings.params.gradient_scale = static_cast<float>(scale.gradient);
+    update_density(settings, state, neighbors());
+    const State at_rest = state;
+    for (const std::size_t i : {std::size_t{0}, std::size_t{7}, std::size_t{62}}) {
+        const VectorSum a = pressure_acceleration(settings, at_rest, neighbors(), i);
+        for (int axis = 0; axis < 3; ++axis) {
+            const double e = 1e-6 * D;
+            double work = 0.0;
+            for (const double sign : {1.0, -1.0}) {
+                state.position[i][axis] = at_rest.position[i][axis] + sign * e;
+                update_density(settings, state, neighbors());
+                for (std::size_t j = 0; j < state.size(); ++j) {
+                    const double rho = at_rest.density[j];
+                    work += sign * at_rest.mass[j] * at_rest.pressure[j] / (rho * rho) * state.density[j] / (2.0 * e);
+                }
+            }
+            state.position[i] = at_rest.position[i];
+            EXPECT_NEAR(at_rest.mass[i] * a.value[axis], -work, 1e-4 * at_rest.mass[i] * a.magnitude);
+        }
+    }
 }
 
 TEST_P(ReferenceForces, WallViscosityOpposesMotionAndVanishesForFreeSlip)
@@ -301,13 +346,12 @@ TEST_P(ReferenceForces, TotalIsTheSumOfTheTermsAndGravity)
         }
         return length;
     };
-    for (const auto* term : {&a.pressure, &a.viscosity, &a.tension, &a.wall_pressure, &a.wall_viscosity, &a.contact}) {
+    for (const auto* term : {&a.pressure, &a.viscosity, &a.tension, &a.wall_viscosity, &a.contact}) {
         EXPECT_GT(largest(*term), 0.0);
     }
     for (std::size_t i = 0; i < state.size(); ++i) {
         const glm::dvec3 sum = a.pressure[i].value + a.viscosity[i].value + a.tension[i].value +
-                               a.wall_pressure[i].value + a.wall_viscosity[i].value + a.contact[i].value +
-                               glm::dvec3(settings.params.gravity);
+                               a.wall_viscosity[i].value + a.contact[i].value + glm::dvec3(settings.params.gravity);
         expect_near(a.total[i].value, sum, 1e-12 * a.total[i].magnitude);
         EXPECT_GE(a.total[i].magnitude * (1.0 + 1e-12), glm::length(a.total[i].value));
     }
