@@ -19,6 +19,14 @@ struct Settings {
     shared::SphParams params{};
 };
 
+/// What a run has noticed: its first fault, and the pairs without direction of the last force evaluation.
+struct RunStatus {
+    std::uint32_t fault = shared::FAULT_NONE; ///< one of shared::FAULT_*
+    std::uint32_t step = 0;                   ///< in which it happened
+    std::uint32_t particle = 0;               ///< the faulty particle of smallest id in that step
+    std::uint32_t coincident = 0;             ///< ordered pairs nearer than COINCIDENT_RATIO support radii
+};
+
 /// The particles in double precision, one array an attribute, all of the same length, in id order. SI units.
 struct State {
     std::vector<std::uint32_t> id;
@@ -30,8 +38,8 @@ struct State {
     std::vector<double> density;           ///< kg/m^3
     std::vector<double> pressure;          ///< Pa
 
-    shared::Status status{}; ///< first fault; coincident is that of the last force evaluation
-    std::uint32_t step = 0;  ///< index of the step to come
+    RunStatus status;
+    std::uint32_t step = 0; ///< index of the step to come
 
     [[nodiscard]] std::size_t size() const { return position.size(); }
 };

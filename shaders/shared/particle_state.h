@@ -19,18 +19,23 @@ SHARED_FUNCTION uint particle_state(uint attributes) { return attributes & 0xffu
 SHARED_FUNCTION uint particle_material(uint attributes) { return (attributes >> MATERIAL_SHIFT) & 0xffu; }
 SHARED_FUNCTION uint pack_attributes(uint state, uint material) { return state | (material << MATERIAL_SHIFT); }
 
-// Why the simulation stopped, in Status::fault.
+// Why the simulation stopped.
 SHARED_CONSTANT uint FAULT_NONE = 0u;
 SHARED_CONSTANT uint FAULT_NOT_FINITE = 1u; // a position or velocity is NaN or infinite
 SHARED_CONSTANT uint FAULT_ESCAPED = 2u;    // a particle left the domain
 SHARED_CONSTANT uint FAULT_TOO_FAST = 3u;   // a particle moves farther in a step than the CFL bound allows
 
-// Written by the GPU, read by the host after the fence. Of the first faulty step, the faulty particle of smallest id.
+// Which particle and why in one word, so that one atomicMin finds the faulty particle of smallest id.
+SHARED_FUNCTION uint pack_offender(uint particle_id, uint fault) { return (particle_id << 2u) | fault; }
+SHARED_FUNCTION uint offender_id(uint offender) { return offender >> 2u; }
+SHARED_FUNCTION uint offender_fault(uint offender) { return offender & 3u; }
+
+SHARED_CONSTANT uint NO_STEP = 0xffffffffu;
+
+// Written by the GPU, read by the host after the fence.
 struct Status {
-    uint fault;      // one of FAULT_*
-    uint step;       // index of the step in which it happened
-    uint particle;   // particle id
-    uint coincident; // ordered pairs closer than COINCIDENT_RATIO support radii, whose gradient was taken as zero
+    uint first_faulty_step; // NO_STEP while all is well
+    uint offender;          // pack_offender(smallest faulty id of that step, its FAULT_*)
 };
 
 SHARED_END
