@@ -1,0 +1,51 @@
+#include "sim/fluid_kernels.h"
+
+#include <array>
+#include <cstdint>
+
+#include "core/error.h"
+#include "spirv/sim/cell_key.comp.h"
+#include "spirv/sim/count_neighbors.comp.h"
+#include "spirv/sim/density.comp.h"
+#include "spirv/sim/forces.comp.h"
+#include "spirv/sim/kick.comp.h"
+#include "spirv/sim/kick_drift.comp.h"
+#include "spirv/sim/reorder.comp.h"
+
+namespace meltpoint::sim {
+
+namespace {
+
+constexpr std::uint32_t max_tile = 16;
+
+std::uint32_t checked_tile(const gpu::DeviceInfo& device, std::uint32_t tile)
+{
+    if (tile > max_tile) {
+        throw input_error("a tile of {} particles was asked for; 1 to {} are possible", tile, max_tile);
+    }
+    return tile == 0 ? default_tile(device) : tile;
+}
+
+std::array<gpu::SpecConstant, 3> constants(std::uint32_t tile, const FluidOptions& options)
+{
+    return {{{0, options.kernel}, {1, tile}, {2, options.tension ? 1u : 0u}}}; // constant_id in shaders/
+}
+
+} // namespace
+
+std::uint32_t default_tile(const gpu::DeviceInfo& device)
+{
+    return device.software() ? 8 : 1;
+}
+
+FluidKernels::FluidKernels(const gpu::Context& context, const FluidOptions& options)
+    : tile(checked_tile(context.info(), options.tile)), kick_drift(context, "kick_drift", sim_kick_drift_comp),
+      kick(context, "kick", sim_kick_comp), cell_key(context, "cell_key", sim_cell_key_comp),
+      reorder(context, "reorder", sim_reorder_comp),
+      density(context, "density", sim_density_comp, constants(tile, options)),
+      forces(context, "forces", sim_forces_comp, constants(tile, options)),
+      count_neighbors(context, "count_neighbors", sim_count_neighbors_comp, constants(tile, options))
+{
+}
+
+} // namespace meltpoint::sim

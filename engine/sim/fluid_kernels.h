@@ -1,0 +1,38 @@
+#pragma once
+
+#include <cstdint>
+
+#include "gpu/kernel.h"
+#include "shared/sph_params.h"
+
+namespace meltpoint::sim {
+
+/// What is compiled into the fluid's kernels as specialization constants.
+struct FluidOptions {
+    std::uint32_t kernel = shared::KERNEL_PAPER;
+    bool tension = false;
+    std::uint32_t tile = 0; ///< particles an invocation, 1 to 16; 0 chooses for the device
+};
+
+/// 8 on software devices, where loading a candidate costs more than using it; 1 on GPUs.
+[[nodiscard]] std::uint32_t default_tile(const gpu::DeviceInfo& device);
+
+/// One kernel a pass of the fluid step (shaders/sim).
+struct FluidKernels {
+    /// Throws Input when options.tile is out of range.
+    FluidKernels(const gpu::Context& context, const FluidOptions& options);
+
+    std::uint32_t tile;
+    gpu::Kernel kick_drift;
+    gpu::Kernel kick;
+    gpu::Kernel cell_key;
+    gpu::Kernel reorder;
+    gpu::Kernel density;
+    gpu::Kernel forces;
+    gpu::Kernel count_neighbors;
+
+    /// Invocations of a pass that owns a tile each.
+    [[nodiscard]] std::uint32_t tiles(std::uint32_t particles) const { return (particles + tile - 1) / tile; }
+};
+
+} // namespace meltpoint::sim

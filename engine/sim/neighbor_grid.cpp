@@ -1,0 +1,73 @@
+#include "sim/neighbor_grid.h"
+
+#include <cmath>
+#include <utility>
+
+#include "core/error.h"
+
+namespace meltpoint::sim {
+
+namespace {
+
+constexpr double max_cells = 16.0 * 1024 * 1024; // 64 MiB of starts: more would cost more than the particles themselves
+
+std::uint32_t checked_cell_count(const glm::uvec3& size)
+{
+    const double cells = static_cast<double>(size.x) * size.y * size.z;
+    if (cells > max_cells) {
+        throw input_error("the domain has {} x {} x {} grid cells, more than {:.0f}: make it smaller or the particle "
+                          "spacing larger",
+                          size.x, size.y, size.z, max_cells);
+    }
+    return size.x * size.y * size.z;
+}
+
+} // namespace
+
+glm::uvec3 grid_size(const glm::vec3& domain_min, const glm::vec3& domain_max, float support_radius)
+{
+    const glm::vec3 cell(support_radius / static_cast<float>(shared::CELLS_PER_SUPPORT_X), support_radius,
+                         support_radius);
+    return glm::max(glm::uvec3(glm::ceil((domain_max - domain_min) / cell)), glm::uvec3(1));
+}
+
+NeighborGrid::NeighborGrid(const gpu::Context& context, std::uint32_t particle_count, const glm::uvec3& size)
+    : cell_count(checked_cell_count(size)), sort(context),
+      key(gpu::make_buffer<std::uint32_t>(context, particle_count, "cell key")),
+      order(gpu::make_buffer<std::uint32_t>(context, particle_count, "sorted order")),
+      cell_start(gpu::make_buffer<std::uint32_t>(context, cell_count + 1, "cell start")),
+      scratch(sort.make_scratch(particle_count, cell_count)),
+      sorted_id(gpu::make_buffer<std::uint32_t>(context, particle_count, "id")),
+      sorted_attributes(gpu::make_buffer<std::uint32_t>(context, particle_count, "attributes")),
+      sorted_position(gpu::make_buffer<glm::vec4>(context, particle_count, "position")),
+      sorted_velocity(gpu::make_buffer<glm::vec4>(context, particle_count, "velocity"))
+{
+}
+
+void record_sort(gpu::Commands& commands, const FluidKernels& kernels, const gpu::Buffer& params,
+                 ParticleBuffers& particles, NeighborGrid& grid)
+{
+    using gpu::read;
+    using gpu::write;
+    {
+        const gpu::Scope scope(commands, "cell key");
+        commands.dispatch(kernels.cell_key, particles.count, gpu::NoPush{},
+                          {read(params), read(particles.position), write(grid.key)});
+    }
+    {
+        const gpu::Scope scope(commands, "sort");
+        grid.sort.record(commands, {grid.key, particles.id, particles.count, grid.cell_count},
+                         {grid.cell_start, grid.order}, grid.scratch);
+    }
+    const gpu::Scope scope(commands, "reorder");
+    commands.dispatch(kernels.reorder, particles.count, gpu::NoPush{},
+                      {read(params), read(grid.order), read(particles.id), read(particles.attributes),
+                       read(particles.position), read(particles.velocity), write(grid.sorted_id),
+                       write(grid.sorted_attributes), write(grid.sorted_position), write(grid.sorted_velocity)});
+    std::swap(particles.id, grid.sorted_id);
+    std::swap(particles.attributes, grid.sorted_attributes);
+    std::swap(particles.position, grid.sorted_position);
+    std::swap(particles.velocity, grid.sorted_velocity);
+}
+
+} // namespace meltpoint::sim

@@ -1,0 +1,38 @@
+#pragma once
+
+#include <cstdint>
+
+#include "gpu/commands.h"
+#include "particle_buffers/particle_buffers.h"
+#include "primitives/counting_sort.h"
+#include "shared/sph_params.h"
+#include "sim/fluid_kernels.h"
+
+namespace meltpoint::sim {
+
+/// Cells along x (half a support radius long), y and z (one support radius) that cover the domain.
+[[nodiscard]] glm::uvec3 grid_size(const glm::vec3& domain_min, const glm::vec3& domain_max, float support_radius);
+
+/// Uniform grid over the domain: the particles are sorted by (cell, id), so a row of cells is one range of particles.
+struct NeighborGrid {
+    /// Throws Input when the domain has more cells than a device of this kind can hold.
+    NeighborGrid(const gpu::Context& context, std::uint32_t particle_count, const glm::uvec3& size);
+
+    std::uint32_t cell_count;
+    primitives::CountingSort sort;
+    gpu::Buffer key;        ///< uint: cell of each particle, in the order before the sort
+    gpu::Buffer order;      ///< uint: sorted slot -> place before the sort
+    gpu::Buffer cell_start; ///< uint: cell_count + 1 starts in the sorted order
+    primitives::CountingSort::Scratch scratch;
+    // Where reorder writes; swapped with the particles' own buffers afterwards.
+    gpu::Buffer sorted_id;
+    gpu::Buffer sorted_attributes;
+    gpu::Buffer sorted_position;
+    gpu::Buffer sorted_velocity;
+};
+
+/// Sorts the particles by (cell, id): key, counting sort, reorder. Swaps particles' buffers with the grid's.
+void record_sort(gpu::Commands& commands, const FluidKernels& kernels, const gpu::Buffer& params,
+                 ParticleBuffers& particles, NeighborGrid& grid);
+
+} // namespace meltpoint::sim

@@ -1,0 +1,145 @@
+#include "sim/simulation.h"
+
+#include <algorithm>
+#include <string_view>
+
+#include "core/error.h"
+#include "gpu/transfer.h"
+#include "sim/wcsph.h"
+
+namespace meltpoint::sim {
+
+namespace {
+
+// Enough to hide the cost of a submission, few enough to answer Ctrl-C and to keep a submission well under a second.
+constexpr std::uint32_t steps_per_submission = 16;
+
+constexpr std::uint32_t scopes_per_step = 8;
+
+/// Particles and the grid's copies of them, per particle, with the sort's keys, order and scratch.
+constexpr std::uint64_t bytes_per_particle = particle_buffer_bytes + 2 * sizeof(glm::vec4) + 8 * sizeof(std::uint32_t);
+
+std::string_view describe_fault(std::uint32_t fault)
+{
+    switch (fault) {
+    case shared::FAULT_NOT_FINITE:
+        return "its position or velocity is not a finite number";
+    case shared::FAULT_ESCAPED:
+        return "it left the domain";
+    case shared::FAULT_TOO_FAST:
+        return "it is faster than the time step allows (CFL bound)";
+    default:
+        return "unknown fault";
+    }
+}
+
+const ParticleSet& checked(const gpu::Context& context, const ParticleSet& particles)
+{
+    if (particles.size() == 0) {
+        throw input_error("there are no particles to simulate");
+    }
+    const std::uint64_t limit = Simulation::particle_limit(context);
+    if (particles.size() > limit) {
+        throw input_error("{} particles are more than {} can hold: at most {}", particles.size(), context.info().name,
+                          limit);
+    }
+    return particles;
+}
+
+} // namespace
+
+shared::SphParams complete_params(shared::SphParams params, std::size_t particle_count)
+{
+    params.particle_count = static_cast<std::uint32_t>(particle_count);
+    params.grid_size = grid_size(params.domain_min, params.domain_max, params.support_radius);
+    return params;
+}
+
+std::uint64_t Simulation::particle_limit(const gpu::Context& context)
+{
+    const std::uint64_t by_binding = context.limits().maxStorageBufferRange / sizeof(glm::vec4);
+    const std::uint64_t by_memory = context.info().memory_bytes / bytes_per_particle;
+    constexpr std::uint64_t by_id = 1u << 30; // an id shares a word with its fault (pack_offender)
+    return std::min({by_binding, by_memory, by_id});
+}
+
+Simulation::Simulation(const gpu::Context& context, const ParticleSet& particles, const SimulationSettings& settings)
+    : context_(&context), params_(complete_params(settings.params, checked(context, particles).size())),
+      kernels_(context, settings.options), particles_(make_particle_buffers(context, params_.particle_count)),
+      grid_(context, params_.particle_count, params_.grid_size),
+      params_buffer_(gpu::make_buffer<shared::SphParams>(context, 1, "params")),
+      status_(gpu::make_buffer<shared::Status>(context, 1, "status")),
+      status_readback_(context, sizeof(shared::Status), gpu::MemoryUse::Readback, "status readback"),
+      commands_(std::make_unique<gpu::Commands>(context))
+{
+    upload(context, particles, particles_);
+    gpu::upload<shared::SphParams>(context, params_buffer_, {&params_, 1});
+    commands_->begin();
+    commands_->fill(status_, shared::NO_STEP);
+    record_evaluation(*commands_, kernels_, params_buffer_, particles_, grid_);
+    commands_->submit();
+    commands_->wait();
+}
+
+void Simulation::advance(std::uint32_t steps)
+{
+    while (steps > 0) {
+        const std::uint32_t batch = std::min(steps, steps_per_submission);
+        commands_->begin();
+        for (std::uint32_t i = 0; i < batch; ++i) {
+            record_step(*commands_, kernels_, params_buffer_, particles_, grid_, status_,
+                        static_cast<std::uint32_t>(step_ + i));
+        }
+        commands_->copy(status_, status_readback_, sizeof(shared::Status));
+        commands_->submit();
+        commands_->wait();
+        check_status();
+        step_ += batch;
+        steps -= batch;
+    }
+}
+
+void Simulation::check_status()
+{
+    const shared::Status status = status_readback_.mapped<shared::Status>()[0];
+    if (status.first_faulty_step == shared::NO_STEP) {
+        return;
+    }
+    throw runtime_error("the simulation broke down in step {} ({:.6g} s) at particle {}: {}", status.first_faulty_step,
+                        static_cast<double>(status.first_faulty_step) * static_cast<double>(params_.dt),
+                        shared::offender_id(status.offender), describe_fault(shared::offender_fault(status.offender)));
+}
+
+ParticleSet Simulation::download() const
+{
+    return meltpoint::download(*context_, particles_);
+}
+
+NeighborStatistics Simulation::neighbor_statistics()
+{
+    const std::uint32_t count = params_.particle_count;
+    const gpu::Buffer neighbors = gpu::make_buffer<std::uint32_t>(*context_, count, "neighbor counts");
+    const gpu::Buffer coincident = gpu::make_buffer<std::uint32_t>(*context_, count, "coincident counts");
+    commands_->begin();
+    record_count_neighbors(*commands_, kernels_, params_buffer_, particles_, grid_, neighbors, coincident);
+    commands_->submit();
+    commands_->wait();
+
+    NeighborStatistics statistics;
+    std::uint64_t sum = 0;
+    for (const std::uint32_t n : gpu::download<std::uint32_t>(*context_, neighbors, count)) {
+        sum += n;
+    }
+    for (const std::uint32_t n : gpu::download<std::uint32_t>(*context_, coincident, count)) {
+        statistics.coincident += n;
+    }
+    statistics.mean = static_cast<double>(sum) / count;
+    return statistics;
+}
+
+void Simulation::enable_timings()
+{
+    commands_ = std::make_unique<gpu::Commands>(*context_, steps_per_submission * scopes_per_step);
+}
+
+} // namespace meltpoint::sim

@@ -1,0 +1,74 @@
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+#include "gpu/commands.h"
+#include "particle_buffers/particle_buffers.h"
+#include "particles/particle_set.h"
+#include "shared/sph_params.h"
+#include "sim/fluid_kernels.h"
+#include "sim/neighbor_grid.h"
+
+namespace meltpoint::sim {
+
+struct SimulationSettings {
+    shared::SphParams params{}; ///< particle_count and grid_size are filled in
+    FluidOptions options;
+};
+
+/// The params with particle count and grid size filled in.
+[[nodiscard]] shared::SphParams complete_params(shared::SphParams params, std::size_t particle_count);
+
+/// Neighbor statistics of the present state.
+struct NeighborStatistics {
+    double mean = 0.0;            ///< neighbors per particle within the support radius, itself not counted
+    std::uint64_t coincident = 0; ///< ordered pairs closer than COINCIDENT_RATIO support radii: they have no gradient
+};
+
+/// A fluid on the device and its time. Buffers are of fixed size; nothing is read back while stepping but one status
+/// word after the fence.
+class Simulation {
+public:
+    /// Uploads the particles and evaluates their accelerations, so that density and pressure are those of the initial
+    /// state. Throws Input when there are no particles or more than the device holds (the sentence names the limit).
+    Simulation(const gpu::Context& context, const ParticleSet& particles, const SimulationSettings& settings);
+
+    /// Runs `steps` time steps, several a submission, and waits for them. Throws Runtime naming step, particle and
+    /// reason when a particle is not finite, has left the domain or is faster than the speed limit.
+    void advance(std::uint32_t steps);
+
+    [[nodiscard]] const ParticleBuffers& particles() const { return particles_; }
+    [[nodiscard]] const shared::SphParams& params() const { return params_; }
+    [[nodiscard]] std::uint64_t step() const { return step_; }
+    [[nodiscard]] double time() const { return static_cast<double>(step_) * static_cast<double>(params_.dt); }
+
+    /// The particles on the host, in order of id.
+    [[nodiscard]] ParticleSet download() const;
+    [[nodiscard]] NeighborStatistics neighbor_statistics();
+
+    /// Takes timestamps of every pass from now on (about 40 us each on software devices).
+    void enable_timings();
+    /// Device times of the passes of the last advance(), summed over its last submission.
+    [[nodiscard]] std::vector<gpu::Timing> timings() const { return commands_->timings(); }
+
+    /// The most particles that the device's memory and binding limits allow with this domain.
+    [[nodiscard]] static std::uint64_t particle_limit(const gpu::Context& context);
+
+private:
+    void check_status();
+
+    const gpu::Context* context_;
+    shared::SphParams params_;
+    FluidKernels kernels_;
+    ParticleBuffers particles_;
+    NeighborGrid grid_;
+    gpu::Buffer params_buffer_;
+    gpu::Buffer status_;
+    gpu::Buffer status_readback_;
+    std::unique_ptr<gpu::Commands> commands_;
+    std::uint64_t step_ = 0;
+};
+
+} // namespace meltpoint::sim

@@ -1,0 +1,70 @@
+#include "sim/wcsph.h"
+
+namespace meltpoint::sim {
+
+using gpu::read;
+using gpu::read_write;
+using gpu::write;
+
+void record_kick_drift(gpu::Commands& commands, const FluidKernels& kernels, const gpu::Buffer& params,
+                       const ParticleBuffers& particles, const gpu::Buffer& status, std::uint32_t step)
+{
+    const gpu::Scope scope(commands, "kick and drift");
+    commands.dispatch(kernels.kick_drift, particles.count, step,
+                      {read(params), read(particles.id), read(particles.acceleration), read_write(particles.attributes),
+                       read_write(particles.position), read_write(particles.velocity), read_write(status)});
+}
+
+void record_density(gpu::Commands& commands, const FluidKernels& kernels, const gpu::Buffer& params,
+                    const ParticleBuffers& particles, const NeighborGrid& grid)
+{
+    const gpu::Scope scope(commands, "density");
+    commands.dispatch(kernels.density, kernels.tiles(particles.count), gpu::NoPush{},
+                      {read(params), read(grid.cell_start), read(particles.position), read(particles.attributes),
+                       write(particles.density), write(particles.pressure)});
+}
+
+void record_forces(gpu::Commands& commands, const FluidKernels& kernels, const gpu::Buffer& params,
+                   const ParticleBuffers& particles, const NeighborGrid& grid)
+{
+    const gpu::Scope scope(commands, "forces");
+    commands.dispatch(kernels.forces, kernels.tiles(particles.count), gpu::NoPush{},
+                      {read(params), read(grid.cell_start), read(particles.position), read(particles.velocity),
+                       read(particles.density), read(particles.pressure), write(particles.acceleration)});
+}
+
+void record_kick(gpu::Commands& commands, const FluidKernels& kernels, const gpu::Buffer& params,
+                 const ParticleBuffers& particles)
+{
+    const gpu::Scope scope(commands, "kick");
+    commands.dispatch(kernels.kick, particles.count, gpu::NoPush{},
+                      {read(params), read(particles.acceleration), read_write(particles.velocity)});
+}
+
+void record_count_neighbors(gpu::Commands& commands, const FluidKernels& kernels, const gpu::Buffer& params,
+                            const ParticleBuffers& particles, const NeighborGrid& grid, const gpu::Buffer& neighbors,
+                            const gpu::Buffer& coincident)
+{
+    const gpu::Scope scope(commands, "count neighbors");
+    commands.dispatch(
+        kernels.count_neighbors, kernels.tiles(particles.count), gpu::NoPush{},
+        {read(params), read(grid.cell_start), read(particles.position), write(neighbors), write(coincident)});
+}
+
+void record_evaluation(gpu::Commands& commands, const FluidKernels& kernels, const gpu::Buffer& params,
+                       ParticleBuffers& particles, NeighborGrid& grid)
+{
+    record_sort(commands, kernels, params, particles, grid);
+    record_density(commands, kernels, params, particles, grid);
+    record_forces(commands, kernels, params, particles, grid);
+}
+
+void record_step(gpu::Commands& commands, const FluidKernels& kernels, const gpu::Buffer& params,
+                 ParticleBuffers& particles, NeighborGrid& grid, const gpu::Buffer& status, std::uint32_t step)
+{
+    record_kick_drift(commands, kernels, params, particles, status, step);
+    record_evaluation(commands, kernels, params, particles, grid);
+    record_kick(commands, kernels, params, particles);
+}
+
+} // namespace meltpoint::sim

@@ -1,0 +1,45 @@
+#pragma once
+
+#include <cstdint>
+
+#include "gpu/commands.h"
+#include "particle_buffers/particle_buffers.h"
+#include "sim/fluid_kernels.h"
+#include "sim/neighbor_grid.h"
+
+namespace meltpoint::sim {
+
+/// The passes of weakly compressible SPH (Mueller et al. 2003 as corrected; Becker & Teschner 2007 for the Tait
+/// equation), one function a shader of shaders/sim. `params` holds one shared::SphParams, `status` one shared::Status.
+
+/// v += a dt/2, x += v dt; writes faults of step `step` to status.
+void record_kick_drift(gpu::Commands& commands, const FluidKernels& kernels, const gpu::Buffer& params,
+                       const ParticleBuffers& particles, const gpu::Buffer& status, std::uint32_t step);
+
+/// Density and pressure of sorted particles.
+void record_density(gpu::Commands& commands, const FluidKernels& kernels, const gpu::Buffer& params,
+                    const ParticleBuffers& particles, const NeighborGrid& grid);
+
+/// Acceleration of sorted particles from position, half-step velocity, density and pressure.
+void record_forces(gpu::Commands& commands, const FluidKernels& kernels, const gpu::Buffer& params,
+                   const ParticleBuffers& particles, const NeighborGrid& grid);
+
+/// v += a dt/2.
+void record_kick(gpu::Commands& commands, const FluidKernels& kernels, const gpu::Buffer& params,
+                 const ParticleBuffers& particles);
+
+/// Neighbors within the support radius, itself not counted, and coincident others, two uints a particle, for
+/// statistics.
+void record_count_neighbors(gpu::Commands& commands, const FluidKernels& kernels, const gpu::Buffer& params,
+                            const ParticleBuffers& particles, const NeighborGrid& grid, const gpu::Buffer& neighbors,
+                            const gpu::Buffer& coincident);
+
+/// Sort, density, forces: what the first step needs to have behind it.
+void record_evaluation(gpu::Commands& commands, const FluidKernels& kernels, const gpu::Buffer& params,
+                       ParticleBuffers& particles, NeighborGrid& grid);
+
+/// One whole time step.
+void record_step(gpu::Commands& commands, const FluidKernels& kernels, const gpu::Buffer& params,
+                 ParticleBuffers& particles, NeighborGrid& grid, const gpu::Buffer& status, std::uint32_t step);
+
+} // namespace meltpoint::sim

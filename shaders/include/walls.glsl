@@ -1,0 +1,62 @@
+// The walls of the box are mirrors: the fluid beyond a wall is the image of the fluid inside. Images supply density and
+// pressure, conserve energy as the particles themselves do, and leave a lattice whose first layer lies half a spacing off the
+// wall exactly at rest. Near an edge there are images of images. Instead of the neighbors, each tile's own positions are
+// reflected: an image of j is as far from i as j is from the image of i. C++ twin: engine/reference/walls.
+#ifndef WALLS_GLSL
+#define WALLS_GLSL
+#include "include/sph_kernel.glsl"
+
+const float PI = 3.14159265358979;
+const float NO_WALL = 1e30;
+const uint IMAGES = 8u; // one bit an axis: 0 is the particle itself
+const vec3 NOWHERE = vec3(1e9); // an image that does not exist: out of everyone's reach
+
+// Along each axis the nearer wall: a box is at least two support radii wide, so the other one is out of reach.
+struct Walls {
+    vec3 plane;    // m, coordinate along its axis
+    vec3 distance; // m, positive inside; NO_WALL where there is none
+    vec3 normal;   // component of the inward normal along its axis: +1 or -1
+};
+
+Walls nearest_walls(vec3 x, vec3 domain_min, vec3 domain_max, uint wall_mask)
+{
+    Walls walls;
+    for (int axis = 0; axis < 3; ++axis) {
+        float lower = (wall_mask & (1u << (2 * axis))) != 0u ? x[axis] - domain_min[axis] : NO_WALL;
+        float upper = (wall_mask & (2u << (2 * axis))) != 0u ? domain_max[axis] - x[axis] : NO_WALL;
+        walls.plane[axis] = lower <= upper ? domain_min[axis] : domain_max[axis];
+        walls.distance[axis] = min(lower, upper);
+        walls.normal[axis] = lower <= upper ? 1.0 : -1.0;
+    }
+    return walls;
+}
+
+// -1 along the axes that an image reflects, 1 along the others.
+vec3 image_signs(uint image) { return 1.0 - 2.0 * vec3(image & 1u, (image >> 1u) & 1u, (image >> 2u) & 1u); }
+
+// The position's image, NOWHERE if one of its walls is out of reach.
+vec3 image_position(vec3 x, uint image, Walls walls, float support_radius)
+{
+    for (int axis = 0; axis < 3; ++axis) {
+        if ((image & (1u << axis)) != 0u) {
+            if (walls.distance[axis] >= support_radius) {
+                return NOWHERE;
+            }
+            x[axis] = 2.0 * walls.plane[axis] - x[axis];
+        }
+    }
+    return x;
+}
+
+// Integral of the viscous Laplacian over the half space beyond a plane at distance s, divided by viscosity_scale, in m^3.
+float half_space_viscosity(float s, float support_radius)
+{
+    float q = min(abs(s) / support_radius, 1.0);
+    float u = 1.0 - q;
+    float u3 = u * u * u;
+    float beyond = KERNEL == KERNEL_PAPER ? PI / 6.0 * u3 * (1.0 + q) : PI / 30.0 * u3 * u * u * (1.0 + 2.0 * q);
+    float whole = KERNEL == KERNEL_PAPER ? PI / 3.0 : PI / 15.0;
+    return (s < 0.0 ? whole - beyond : beyond) * support_radius * support_radius * support_radius;
+}
+
+#endif

@@ -1,0 +1,68 @@
+#version 460
+#extension GL_GOOGLE_include_directive : require
+// Density and pressure: rho_i = m_i sum_j W_ij over the particles and their images in the walls (Solenthaler & Pajarola
+// 2008), then the state equation. Twin: engine/reference/density.cpp.
+#define CELL_START_BINDING 1
+#include "include/invocation.glsl"
+#include "include/neighbor_walk.glsl"
+#include "include/sph_kernel.glsl"
+#include "shared/particle_state.h"
+
+layout(set = 0, binding = 0, scalar) readonly buffer Params { SphParams params; };
+layout(set = 0, binding = 2, scalar) readonly buffer Position { vec4 position[]; };
+layout(set = 0, binding = 3, scalar) readonly buffer Attributes { uint attributes[]; };
+layout(set = 0, binding = 4, scalar) writeonly buffer Density { float density[]; };
+layout(set = 0, binding = 5, scalar) writeonly buffer Pressure { float pressure[]; };
+
+#include "include/image_walk.glsl"
+
+float state_equation(float rho, float rho0)
+{
+    float c2 = params.speed_of_sound * params.speed_of_sound;
+    float p = params.background_pressure;
+    if (params.state_equation == STATE_EQUATION_TAIT) {
+        p += c2 * rho0 / params.gamma * (pow(rho / rho0, params.gamma) - 1.0);
+    } else {
+        p += c2 * (rho - rho0);
+    }
+    return params.clamp_pressure != 0u ? max(p, 0.0) : p;
+}
+
+void main()
+{
+    uint first = invocation_index() * TILE;
+    if (first >= params.particle_count) {
+        return;
+    }
+    uint last = min(first + TILE, params.particle_count) - 1u;
+
+    float h = params.support_radius;
+    KernelSize size = kernel_size(h);
+    float sum[TILE];
+    for (uint k = 0u; k < TILE; ++k) {
+        sum[k] = 0.0;
+    }
+
+    for (uint image = 0u; image < IMAGES; ++image) {
+        vec3 x[TILE];
+        Walk walk = begin_image_walk(first, last, image, x);
+        if (is_empty(walk)) {
+            continue;
+        }
+        FOR_EACH_CANDIDATE(range, walk) {
+            vec3 xj = position[range.x].xyz;
+            for (uint k = 0u; k < TILE; ++k) {
+                vec3 offset = x[k] - xj;
+                sum[k] += density_shape(dot(offset, offset), size);
+            }
+        }
+    }
+
+    for (uint k = 0u; k < TILE && first + k <= last; ++k) {
+        uint i = first + k;
+        float rho0 = params.rest_density[particle_material(attributes[i])];
+        float rho = position[i].w * params.density_scale * sum[k];
+        density[i] = rho;
+        pressure[i] = state_equation(rho, rho0);
+    }
+}

@@ -1,0 +1,30 @@
+#version 460
+#extension GL_GOOGLE_include_directive : require
+// Moves the particles into the sorted order, so that neighbors in space are neighbors in memory. What the rest of the step
+// computes anew (density, pressure, acceleration) stays behind.
+#include "include/invocation.glsl"
+#include "shared/sph_params.h"
+
+layout(set = 0, binding = 0, scalar) readonly buffer Params { SphParams params; };
+layout(set = 0, binding = 1, scalar) readonly buffer Order { uint order[]; };
+layout(set = 0, binding = 2, scalar) readonly buffer Id { uint id[]; };
+layout(set = 0, binding = 3, scalar) readonly buffer Attributes { uint attributes[]; };
+layout(set = 0, binding = 4, scalar) readonly buffer Position { vec4 position[]; };
+layout(set = 0, binding = 5, scalar) readonly buffer Velocity { vec4 velocity[]; };
+layout(set = 0, binding = 6, scalar) writeonly buffer SortedId { uint sorted_id[]; };
+layout(set = 0, binding = 7, scalar) writeonly buffer SortedAttributes { uint sorted_attributes[]; };
+layout(set = 0, binding = 8, scalar) writeonly buffer SortedPosition { vec4 sorted_position[]; };
+layout(set = 0, binding = 9, scalar) writeonly buffer SortedVelocity { vec4 sorted_velocity[]; };
+
+void main()
+{
+    uint slot = invocation_index();
+    if (slot >= params.particle_count) {
+        return;
+    }
+    uint source = order[slot];
+    sorted_id[slot] = id[source];
+    sorted_attributes[slot] = attributes[source];
+    sorted_position[slot] = position[source];
+    sorted_velocity[slot] = velocity[source];
+}
