@@ -27,9 +27,10 @@ STANDS_ON = {
     "engine/sim": ["engine/particle_buffers", "engine/primitives"],
     "engine/render": ["engine/particle_buffers", "engine/primitives"],
     "engine/run": ["engine/scene", "engine/io", "engine/sim", "engine/render"],
+    "apps/conformance": ["engine/sim", "engine/reference"],
     "apps/meltpoint": ["engine/run"],
     "apps/viewer": ["engine/run"],
-    "tests": ["engine/run", "engine/reference"],
+    "tests": ["engine/run", "engine/reference", "apps/conformance"],
     "shaders/shared": [],
     "shaders/include": ["shaders/shared"],
     "shaders/primitives": ["shaders/include"],
@@ -42,7 +43,7 @@ DISPATCHING = ["engine/primitives", "engine/sim", "engine/render"]
 
 # Single files that may include one folder more.
 EXTRA = {
-    "apps/meltpoint/compare.cpp": ["engine/reference"],
+    "apps/meltpoint/compare.cpp": ["apps/conformance", "engine/reference"],
 }
 
 GPU_FOLDERS = ["engine/gpu", "engine/primitives", "engine/particle_buffers", "engine/sim", "engine/render", "engine/run"]

@@ -1,0 +1,314 @@
+#include "conformance/pass_comparison.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "gpu/transfer.h"
+#include "reference/cells.h"
+#include "reference/density.h"
+#include "reference/forces.h"
+#include "reference/integrate.h"
+#include "reference/measure.h"
+#include "reference/state.h"
+#include "reference/step.h"
+#include "sim/wcsph.h"
+
+namespace meltpoint::conformance {
+
+namespace {
+
+constexpr double rounding_zone = 1e-6;
+
+/// L2(difference) / L2(scale) over all particles.
+class RelativeError {
+public:
+    void add(double difference, double scale)
+    {
+        difference2_ += difference * difference;
+        scale2_ += scale * scale;
+    }
+    void add(const glm::vec3& gpu, const glm::dvec3& reference, double scale)
+    {
+        add(glm::length(glm::dvec3(gpu) - reference), scale);
+    }
+    [[nodiscard]] double value() const
+    {
+        return difference2_ == 0.0 ? 0.0 : std::sqrt(difference2_) / std::sqrt(scale2_);
+    }
+
+private:
+    double difference2_ = 0.0;
+    double scale2_ = 0.0;
+};
+
+/// The passes on the device one at a time, with the host looking on in between.
+struct Device {
+    const gpu::Context& context;
+    shared::SphParams params;
+    sim::FluidKernels kernels;
+    ParticleBuffers particles;
+    sim::NeighborGrid grid;
+    gpu::Buffer params_buffer;
+    gpu::Buffer status;
+    gpu::Commands commands;
+
+    Device(const gpu::Context& device_context, const ParticleSet& set, const sim::SimulationSettings& settings)
+        : context(device_context), params(sim::complete_params(settings.params, set.size())),
+          kernels(context, settings.options), particles(make_particle_buffers(context, params.particle_count)),
+          grid(context, params.particle_count, params.grid_size),
+          params_buffer(gpu::make_buffer<shared::SphParams>(context, 1, "params")),
+          status(gpu::make_buffer<shared::Status>(context, 1, "status")), commands(context)
+    {
+        upload(context, set, particles);
+        gpu::upload<shared::SphParams>(context, params_buffer, {&params, 1});
+        run([&] { commands.fill(status, shared::NO_STEP); });
+    }
+
+    template <class Record>
+    void run(const Record& record)
+    {
+        commands.begin();
+        record();
+        commands.submit();
+        commands.wait();
+    }
+};
+
+reference::Settings reference_settings(const Device& device, const sim::SimulationSettings& settings)
+{
+    return {.kernel = settings.options.kernel, .params = device.params};
+}
+
+// --- the passes ---
+
+std::vector<PassError> compare_kick_drift(Device& device, const reference::Settings& settings)
+{
+    reference::State twin = reference::from_particle_set(download_unordered(device.context, device.particles));
+    device.run([&] {
+        sim::record_kick_drift(device.commands, device.kernels, device.params_buffer, device.particles, device.status,
+                               0);
+    });
+    reference::kick(twin, 0.5 * static_cast<double>(device.params.dt));
+    reference::drift(settings, twin);
+
+    const ParticleSet gpu = download_unordered(device.context, device.particles);
+    RelativeError position;
+    RelativeError velocity;
+    for (std::size_t i = 0; i < gpu.size(); ++i) {
+        position.add(gpu.position[i], twin.position[i], glm::length(twin.position[i]));
+        velocity.add(gpu.velocity[i], twin.velocity[i], glm::length(twin.velocity[i]));
+    }
+    return {{"drift: position", position.value(), pass_bound},
+            {"kick: half-step velocity", velocity.value(), pass_bound}};
+}
+
+/// Whether a coordinate is so near a cell's border that float and double may disagree about the cell.
+bool near_cell_border(const shared::SphParams& params, const glm::vec3& x)
+{
+    const glm::dvec3 cell(params.support_radius / static_cast<float>(shared::CELLS_PER_SUPPORT_X),
+                          params.support_radius, params.support_radius);
+    const glm::dvec3 place = (glm::dvec3(x) - glm::dvec3(params.domain_min)) / cell;
+    const glm::dvec3 distance = glm::abs(place - glm::round(place));
+    // A float of this size is only so fine: the border zone is the coordinate's own rounding error, at least 1e-6
+    // cells.
+    const glm::dvec3 zone = glm::max(glm::dvec3(rounding_zone), 4e-7 * glm::abs(glm::dvec3(x)) / cell);
+    return glm::any(glm::lessThan(distance, zone));
+}
+
+std::uint32_t cell_of(const shared::SphParams& params, const glm::vec3& x)
+{
+    const glm::dvec3 cell(params.support_radius / static_cast<float>(shared::CELLS_PER_SUPPORT_X),
+                          params.support_radius, params.support_radius);
+    const glm::dvec3 place = (glm::dvec3(x) - glm::dvec3(params.domain_min)) / cell;
+    const glm::uvec3 c(glm::clamp(place, glm::dvec3(0.0), glm::dvec3(params.grid_size - 1u)));
+    return (c.z * params.grid_size.y + c.y) * params.grid_size.x + c.x;
+}
+
+/// Every particle once, in the slots of its cell, ids ascending within a cell, all attributes moved along.
+PassError compare_sort(Device& device)
+{
+    const ParticleSet before = download(device.context, device.particles); // by id
+    device.run([&] {
+        sim::record_sort(device.commands, device.kernels, device.params_buffer, device.particles, device.grid);
+    });
+    const ParticleSet after = download_unordered(device.context, device.particles);
+    const auto start = gpu::download<std::uint32_t>(device.context, device.grid.cell_start, device.grid.cell_count + 1);
+
+    PassError result{"sort", 0.0, 0.0};
+    std::vector<bool> seen(after.size(), false);
+    for (std::uint32_t cell = 0; cell < device.grid.cell_count; ++cell) {
+        for (std::uint32_t slot = start[cell]; slot < start[cell + 1]; ++slot) {
+            const std::uint32_t id = slot < after.size() ? after.id[slot] : ~0u;
+            if (id >= before.size() || seen[id]) {
+                return {"sort", 1.0, 0.0};
+            }
+            seen[id] = true;
+            const bool moved_whole =
+                after.position[slot] == before.position[id] && after.mass[slot] == before.mass[id] &&
+                after.velocity[slot] == before.velocity[id] && after.attributes[slot] == before.attributes[id];
+            const bool ascending = slot == start[cell] || after.id[slot - 1] < id;
+            bool right_cell = cell_of(device.params, after.position[slot]) == cell;
+            if (!right_cell && near_cell_border(device.params, after.position[slot])) {
+                ++result.excluded;
+                right_cell = true;
+            }
+            if (!moved_whole || !ascending || !right_cell) {
+                return {"sort", 1.0, 0.0};
+            }
+        }
+    }
+    const bool complete = start[0] == 0 && start.back() == after.size() &&
+                          std::count(seen.begin(), seen.end(), true) == static_cast<std::ptrdiff_t>(seen.size());
+    result.error = complete ? 0.0 : 1.0;
+    return result;
+}
+
+PassError compare_neighbors(Device& device, const reference::State& twin)
+{
+    const std::uint32_t count = device.particles.count;
+    const gpu::Buffer neighbors = gpu::make_buffer<std::uint32_t>(device.context, count, "neighbor counts");
+    const gpu::Buffer coincident = gpu::make_buffer<std::uint32_t>(device.context, count, "coincident counts");
+    device.run([&] {
+        sim::record_count_neighbors(device.commands, device.kernels, device.params_buffer, device.particles,
+                                    device.grid, neighbors, coincident);
+    });
+    const auto gpu = gpu::download<std::uint32_t>(device.context, neighbors, count);
+
+    // Counts with a support radius slightly smaller and slightly larger bracket what rounding may decide.
+    const double support = static_cast<double>(device.params.support_radius);
+    const reference::Neighbors fewest = reference::find_neighbors(twin.position, support * (1.0 - rounding_zone));
+    const reference::Neighbors most = reference::find_neighbors(twin.position, support * (1.0 + rounding_zone));
+    PassError result{"neighbors", 0.0, 0.0};
+    std::uint64_t wrong = 0;
+    for (std::size_t i = 0; i < count; ++i) {
+        result.excluded += most.of(i).size() - fewest.of(i).size();
+        wrong += gpu[i] < fewest.of(i).size() || gpu[i] > most.of(i).size() ? 1 : 0;
+    }
+    result.error = static_cast<double>(wrong) / count;
+    return result;
+}
+
+std::vector<PassError> compare_density(Device& device, const reference::Settings& settings, reference::State& twin,
+                                       const reference::Neighbors& neighbors)
+{
+    device.run([&] {
+        sim::record_density(device.commands, device.kernels, device.params_buffer, device.particles, device.grid);
+    });
+    reference::update_density(settings, twin, neighbors);
+
+    const ParticleSet gpu = download_unordered(device.context, device.particles);
+    const double c2 = std::pow(static_cast<double>(device.params.speed_of_sound), 2);
+    RelativeError density;
+    RelativeError pressure;
+    std::uint64_t clamp_flips = 0;
+    for (std::size_t i = 0; i < gpu.size(); ++i) {
+        const double rho0 = reference::rest_density(settings, twin, i);
+        density.add(static_cast<double>(gpu.density[i]) - twin.density[i], twin.density[i]);
+        if (std::abs(twin.density[i] - rho0) < rounding_zone * rho0 && device.params.clamp_pressure != 0) {
+            ++clamp_flips;
+            continue;
+        }
+        pressure.add(static_cast<double>(gpu.pressure[i]) - twin.pressure[i],
+                     std::max(c2 * rho0, std::abs(twin.pressure[i])));
+    }
+    return {{"density", density.value(), pass_bound}, {"pressure", pressure.value(), pass_bound, clamp_flips}};
+}
+
+PassError compare_forces(Device& device, const reference::Settings& settings, const reference::Neighbors& neighbors)
+{
+    device.run([&] {
+        sim::record_forces(device.commands, device.kernels, device.params_buffer, device.particles, device.grid);
+    });
+    const ParticleSet gpu = download_unordered(device.context, device.particles);
+    const reference::State input = reference::from_particle_set(gpu); // with the device's density and pressure
+    const reference::Accelerations twin = reference::accelerations(settings, input, neighbors);
+    RelativeError error;
+    for (std::size_t i = 0; i < gpu.size(); ++i) {
+        error.add(gpu.acceleration[i], twin.total[i].value, twin.total[i].magnitude);
+    }
+    return {"forces", error.value(), pass_bound};
+}
+
+PassError compare_kick(Device& device)
+{
+    reference::State twin = reference::from_particle_set(download_unordered(device.context, device.particles));
+    device.run([&] { sim::record_kick(device.commands, device.kernels, device.params_buffer, device.particles); });
+    reference::kick(twin, 0.5 * static_cast<double>(device.params.dt));
+    const ParticleSet gpu = download_unordered(device.context, device.particles);
+    RelativeError error;
+    for (std::size_t i = 0; i < gpu.size(); ++i) {
+        error.add(gpu.velocity[i], twin.velocity[i], glm::length(twin.velocity[i]));
+    }
+    return {"kick: velocity", error.value(), pass_bound};
+}
+
+} // namespace
+
+std::vector<PassError> compare_passes(const gpu::Context& context, const ParticleSet& particles,
+                                      const sim::SimulationSettings& settings)
+{
+    Device device(context, particles, settings);
+    const reference::Settings twin_settings = reference_settings(device, settings);
+
+    std::vector<PassError> errors = compare_kick_drift(device, twin_settings);
+    errors.push_back(compare_sort(device));
+    reference::State twin = reference::from_particle_set(download_unordered(context, device.particles));
+    const reference::Neighbors neighbors =
+        reference::find_neighbors(twin.position, static_cast<double>(device.params.support_radius));
+    errors.push_back(compare_neighbors(device, twin));
+    for (PassError& error : compare_density(device, twin_settings, twin, neighbors)) {
+        errors.push_back(std::move(error));
+    }
+    errors.push_back(compare_forces(device, twin_settings, neighbors));
+    errors.push_back(compare_kick(device));
+    return errors;
+}
+
+std::vector<PassError> compare_steps(const gpu::Context& context, const ParticleSet& particles,
+                                     const sim::SimulationSettings& settings, std::uint32_t steps)
+{
+    sim::Simulation simulation(context, particles, settings);
+    const reference::Settings twin_settings{.kernel = settings.options.kernel, .params = simulation.params()};
+    reference::State twin = reference::from_particle_set(particles);
+    reference::evaluate(twin_settings, twin);
+    const double start_energy = reference::kinetic_energy(twin) + reference::potential_energy(twin_settings, twin);
+
+    simulation.advance(steps);
+    for (std::uint32_t i = 0; i < steps; ++i) {
+        reference::step(twin_settings, twin);
+    }
+    const reference::State gpu = reference::from_particle_set(simulation.download());
+
+    if (steps == 1) {
+        const reference::Neighbors neighbors =
+            reference::find_neighbors(twin.position, static_cast<double>(simulation.params().support_radius));
+        const reference::Accelerations terms = reference::accelerations(twin_settings, twin, neighbors);
+        // Near rest the terms vanish with the pressure, which itself is right to within rounding of c0^2 rho0.
+        const double c0 = static_cast<double>(simulation.params().speed_of_sound);
+        const double pressure_scale = c0 * c0 / static_cast<double>(simulation.params().support_radius);
+        const double dt = static_cast<double>(simulation.params().dt);
+        RelativeError position;
+        RelativeError velocity;
+        for (std::size_t i = 0; i < twin.size(); ++i) {
+            position.add(glm::length(gpu.position[i] - twin.position[i]), glm::length(twin.position[i]));
+            velocity.add(glm::length(gpu.velocity[i] - twin.velocity[i]),
+                         glm::length(twin.velocity[i]) + dt * (terms.total[i].magnitude + pressure_scale));
+        }
+        return {{"1 step: position", position.value(), pass_bound}, {"1 step: velocity", velocity.value(), pass_bound}};
+    }
+
+    const double energy_scale =
+        std::max(std::abs(start_energy),
+                 reference::kinetic_energy(twin) + std::abs(reference::potential_energy(twin_settings, twin)));
+    const double energy_error =
+        std::abs(reference::kinetic_energy(gpu) - reference::kinetic_energy(twin)) +
+        std::abs(reference::potential_energy(twin_settings, gpu) - reference::potential_energy(twin_settings, twin));
+    const double center_error = glm::length(reference::center_of_mass(gpu) - reference::center_of_mass(twin));
+    const glm::dvec3 extent = glm::dvec3(simulation.params().domain_max) - glm::dvec3(simulation.params().domain_min);
+    return {{fmt::format("{} steps: energy", steps), energy_error / energy_scale, run_bound},
+            {fmt::format("{} steps: center of mass", steps), center_error / glm::length(extent), run_bound}};
+}
+
+} // namespace meltpoint::conformance

@@ -1,0 +1,177 @@
+// Every pass of the fluid step on the device against its twin in double precision, over the states in which a pass
+// could go wrong, for both kernels and several tile sizes.
+#include <tuple>
+
+#include "conformance/pass_comparison.h"
+#include "support/fluid_states.h"
+#include "support/gpu_test.h"
+
+namespace meltpoint {
+namespace {
+
+constexpr float d = test_spacing;
+
+const std::vector<NamedState>& states()
+{
+    static const std::vector<NamedState> all{
+        {"Lattice",
+         [] {
+             return lattice_state({9, 8, 7}, glm::vec3(0.3f));
+         }},
+        {"LatticeOnTheFloor",
+         [] {
+             return lattice_state({20, 5, 20}, glm::vec3(0.5f * d));
+         }},
+        {"Random",
+         [] {
+             return random_state(1501, glm::vec3(0.2f), glm::vec3(0.7f), 1);
+         }},
+        {"Splash",
+         [] {
+             return splash_state(2);
+         }},
+        {"One",
+         [] {
+             ParticleSet set;
+             add_particle(set, glm::vec3(0.5f), glm::vec3(1.0f, 2.0f, 3.0f));
+             return set;
+         }},
+        {"Two",
+         [] {
+             ParticleSet set;
+             add_particle(set, glm::vec3(0.5f), glm::vec3(1.0f, 0.0f, 0.0f));
+             add_particle(set, glm::vec3(0.5f, 0.5f + 0.4f * d, 0.5f), glm::vec3(-1.0f, 0.0f, 0.5f));
+             return set;
+         }},
+        {"OnCellBorders", // cells are multiples of d in both kernels' grids
+         [] {
+             return lattice_state({10, 10, 10}, glm::vec3(0.25f));
+         }},
+        {"AllInOneCell",
+         [] {
+             return random_state(600, glm::vec3(0.51f), glm::vec3(0.51f + 0.4f * d), 3);
+         }},
+        {"Coincident",
+         [] {
+             ParticleSet set = lattice_state({5, 5, 5}, glm::vec3(0.4f));
+             const std::size_t count = set.size();
+             for (std::size_t i = 0; i < count; ++i) {
+                 add_particle(set, set.position[i], glm::vec3(0.1f));
+             }
+             return set;
+         }},
+        {"InTheCorners",
+         [] {
+             ParticleSet set;
+             for (int corner = 0; corner < 8; ++corner) {
+                 const glm::vec3 side(corner & 1, (corner >> 1) & 1, (corner >> 2) & 1);
+                 for (int i = 1; i <= 5; ++i) {
+                     const float inset = 0.17f * static_cast<float>(i) * d;
+                     add_particle(set, glm::mix(glm::vec3(inset), glm::vec3(1.0f - inset), side),
+                                  glm::vec3(0.3f) - 0.7f * side);
+                 }
+             }
+             return set;
+         }},
+    };
+    return all;
+}
+
+class PassConformance : public GpuTest, public testing::WithParamInterface<std::tuple<std::size_t, std::uint32_t>> {
+protected:
+    void expect_conformance(const sim::SimulationSettings& settings, const ParticleSet& state)
+    {
+        for (const conformance::PassError& pass : conformance::compare_passes(context(), state, settings)) {
+            EXPECT_TRUE(pass.conforms()) << pass.pass << ": " << pass.error << " > " << pass.bound << " ("
+                                         << pass.excluded << " excluded)";
+            // A lattice has up to 30 neighbors at exactly 3 d.
+            EXPECT_LE(pass.excluded, state.size() * 36) << pass.pass << ": too much left out to mean anything";
+        }
+    }
+};
+
+TEST_P(PassConformance, AllPasses)
+{
+    const auto [state, kernel] = GetParam();
+    expect_conformance(test_settings(kernel), states()[state].make());
+}
+
+TEST_P(PassConformance, EachForceAlone)
+{
+    const auto [state, kernel] = GetParam();
+    const ParticleSet particles = states()[state].make();
+
+    sim::SimulationSettings nothing = test_settings(kernel);
+    nothing.params.gravity = glm::vec3(0.0f);
+    nothing.params.viscosity = 0.0f;
+    nothing.params.wall_mask = 0;
+    nothing.params.speed_of_sound = 0.0f;
+    sim::SimulationSettings pressure = nothing;
+    pressure.params.speed_of_sound = 40.0f;
+    sim::SimulationSettings linear = pressure;
+    linear.params.state_equation = shared::STATE_EQUATION_LINEAR;
+    linear.params.clamp_pressure = 0;
+    linear.params.background_pressure = 500.0f;
+    sim::SimulationSettings viscosity = nothing;
+    viscosity.params.viscosity = 3.0f;
+    sim::SimulationSettings tension = nothing;
+    tension.options.tension = true;
+    tension.params.surface_tension = 0.5f;
+    tension.params.tension_threshold = 0.5f;
+    sim::SimulationSettings walls = nothing;
+    walls.params.wall_mask = 0x3f;
+    walls.params.wall_viscosity = 2.0f;
+    sim::SimulationSettings some_walls = pressure;
+    some_walls.params.wall_mask = 0x26; // x max, y min, z max
+    for (const auto& [name, settings] : {std::pair{"pressure", pressure},
+                                         {"linear, unclamped", linear},
+                                         {"viscosity", viscosity},
+                                         {"tension", tension},
+                                         {"walls", walls},
+                                         {"some walls", some_walls}}) {
+        SCOPED_TRACE(name);
+        expect_conformance(settings, particles);
+    }
+}
+
+TEST_P(PassConformance, EveryTileSize)
+{
+    const auto [state, kernel] = GetParam();
+    const ParticleSet particles = states()[state].make();
+    for (const std::uint32_t tile : {1u, 3u, 4u, 16u}) {
+        SCOPED_TRACE(tile);
+        sim::SimulationSettings settings = test_settings(kernel);
+        settings.options.tile = tile;
+        expect_conformance(settings, particles);
+    }
+}
+
+INSTANTIATE_TEST_SUITE_P(States, PassConformance,
+                         testing::Combine(testing::Range<std::size_t>(0, states().size()),
+                                          testing::Values(shared::KERNEL_PAPER, shared::KERNEL_WENDLAND)),
+                         [](const auto& instance) {
+                             return states()[std::get<0>(instance.param)].name +
+                                    (std::get<1>(instance.param) == shared::KERNEL_PAPER ? "Paper" : "Wendland");
+                         });
+
+class MaterialConformance : public PassConformance {};
+
+// Fluids of different rest density in one run: each particle's own material decides.
+TEST_F(MaterialConformance, TwoRestDensities)
+{
+    for (const std::uint32_t kernel : {shared::KERNEL_PAPER, shared::KERNEL_WENDLAND}) {
+        sim::SimulationSettings settings = test_settings(kernel);
+        settings.params.rest_density[1] = 700.0f;
+        ParticleSet set = lattice_state({8, 8, 8}, glm::vec3(0.3f));
+        for (std::size_t i = 0; i < set.size(); ++i) {
+            if (set.position[i].y > 0.5f) {
+                set.attributes[i] = shared::pack_attributes(shared::STATE_FLUID, 1);
+                set.mass[i] *= 0.7f;
+            }
+        }
+        expect_conformance(settings, set);
+    }
+}
+
+} // namespace
+} // namespace meltpoint

@@ -1,0 +1,173 @@
+// Whole steps: against the twin, against what is exact, and against themselves.
+#include <cstdlib>
+
+#include "conformance/pass_comparison.h"
+#include "core/error.h"
+#include "support/fluid_states.h"
+#include "support/gpu_test.h"
+
+namespace meltpoint {
+namespace {
+
+class Steps : public GpuTest {};
+
+constexpr std::uint32_t both_kernels[] = {shared::KERNEL_PAPER, shared::KERNEL_WENDLAND};
+
+void expect_all(const std::vector<conformance::PassError>& errors)
+{
+    for (const conformance::PassError& error : errors) {
+        EXPECT_TRUE(error.conforms()) << error.pass << ": " << error.error << " > " << error.bound;
+    }
+}
+
+TEST_F(Steps, OneStepIsTheTwins)
+{
+    for (const std::uint32_t kernel : both_kernels) {
+        expect_all(conformance::compare_steps(context(), splash_state(4), test_settings(kernel), 1));
+        expect_all(conformance::compare_steps(context(), lattice_state({20, 6, 10}, glm::vec3(0.5f * test_spacing)),
+                                              test_settings(kernel), 1));
+    }
+}
+
+TEST_F(Steps, FiftyStepsKeepTheTwinsEnergyAndCenter)
+{
+    for (const std::uint32_t kernel : both_kernels) {
+        expect_all(conformance::compare_steps(context(), lattice_state({10, 12, 10}, glm::vec3(0.5f * test_spacing)),
+                                              test_settings(kernel), 50));
+    }
+}
+
+TEST_F(Steps, FreeFallIsExact)
+{
+    sim::SimulationSettings settings = test_settings(shared::KERNEL_WENDLAND);
+    settings.params.domain_max = glm::vec3(1.0f, 4.0f, 1.0f);
+    settings.params.dt = 1e-3f;
+    ParticleSet set;
+    add_particle(set, glm::vec3(0.5f, 3.5f, 0.5f), glm::vec3(0.1f, 1.0f, 0.0f));
+    sim::Simulation simulation(context(), set, settings);
+    simulation.advance(700);
+    const double t = 0.7;
+    const glm::dvec3 exact = glm::dvec3(0.5 + 0.1 * t, 3.5 + 1.0 * t - 0.5 * 9.81 * t * t, 0.5);
+    EXPECT_LE(glm::length(glm::dvec3(simulation.download().position[0]) - exact), 1e-5 * glm::length(exact));
+}
+
+// Closed, no gravity, no walls: a jittered block flies apart, and the sum of its momenta must not care.
+TEST_F(Steps, MomentumIsConserved)
+{
+    for (const std::uint32_t kernel : both_kernels) {
+        sim::SimulationSettings settings = test_settings(kernel);
+        settings.params.gravity = glm::vec3(0.0f);
+        settings.params.wall_mask = 0;
+        Random random(5);
+        ParticleSet set = lattice_state({9, 9, 9}, glm::vec3(0.3f));
+        for (std::size_t i = 0; i < set.size(); ++i) {
+            set.position[i] += 0.1f * test_spacing * (random_vector(random) - 0.5f);
+            set.velocity[i] = random_vector(random) - 0.5f;
+        }
+        sim::Simulation simulation(context(), set, settings);
+        simulation.advance(100);
+        const ParticleSet after = simulation.download();
+        glm::dvec3 change(0.0);
+        double scale = 0.0;
+        for (std::size_t i = 0; i < set.size(); ++i) {
+            change += static_cast<double>(set.mass[i]) * (glm::dvec3(after.velocity[i]) - glm::dvec3(set.velocity[i]));
+            scale += static_cast<double>(set.mass[i]) * glm::length(glm::dvec3(after.velocity[i]));
+        }
+        EXPECT_LE(glm::length(change), 1e-6 * scale);
+    }
+}
+
+TEST_F(Steps, RerunsAndTileSizesGiveTheSameBits)
+{
+    const auto run = [&](std::uint32_t tile) {
+        sim::SimulationSettings settings = test_settings(shared::KERNEL_PAPER);
+        settings.options.tile = tile;
+        sim::Simulation simulation(context(), splash_state(6), settings);
+        simulation.advance(100);
+        return simulation.download();
+    };
+    const ParticleSet first = run(8);
+    for (const std::uint32_t tile : {8u, 1u, 3u}) {
+        const ParticleSet again = run(tile);
+        EXPECT_EQ(first.position, again.position);
+        EXPECT_EQ(first.velocity, again.velocity);
+        EXPECT_EQ(first.density, again.density);
+    }
+}
+
+std::string fault_message(const gpu::Context& context, const ParticleSet& set, const sim::SimulationSettings& settings,
+                          std::uint32_t steps)
+{
+    sim::Simulation simulation(context, set, settings);
+    try {
+        simulation.advance(steps);
+    } catch (const Error& error) {
+        EXPECT_EQ(error.kind(), ErrorKind::Runtime);
+        return error.what();
+    }
+    return "no fault";
+}
+
+TEST_F(Steps, AnEscapeIsReportedWithStepAndParticle)
+{
+    sim::SimulationSettings settings = test_settings(shared::KERNEL_PAPER);
+    settings.params.gravity = glm::vec3(0.0f);
+    settings.params.wall_mask = 0;
+    settings.params.dt = 0.01f;
+    ParticleSet set;
+    add_particle(set, glm::vec3(0.2f));
+    add_particle(set, glm::vec3(0.5f), glm::vec3(4.0f, 0.0f, 0.0f)); // passes x = 1 in the 13th step
+    add_particle(set, glm::vec3(0.8f));
+    const std::string message = fault_message(context(), set, settings, 40);
+    EXPECT_NE(message.find("step 12"), std::string::npos) << message;
+    EXPECT_NE(message.find("particle 1"), std::string::npos) << message;
+    EXPECT_NE(message.find("left the domain"), std::string::npos) << message;
+}
+
+TEST_F(Steps, ANotANumberIsReportedWithTheSmallestId)
+{
+    ParticleSet set =
+        lattice_state({4, 4, 4}, glm::vec3(0.4f)); // ids 0 to 63; the faulty ones have no neighbors to infect
+    add_particle(set, glm::vec3(0.9f, 0.9f, 0.9f), glm::vec3(0.0f, std::numeric_limits<float>::quiet_NaN(), 0.0f));
+    add_particle(set, glm::vec3(0.1f, 0.9f, 0.9f), glm::vec3(std::numeric_limits<float>::infinity(), 0.0f, 0.0f));
+    const std::string message = fault_message(context(), set, test_settings(shared::KERNEL_WENDLAND), 3);
+    EXPECT_NE(message.find("step 0"), std::string::npos) << message;
+    EXPECT_NE(message.find("particle 64"), std::string::npos) << message;
+    EXPECT_NE(message.find("not a finite number"), std::string::npos) << message;
+}
+
+TEST_F(Steps, ASpeedBeyondTheLimitIsReported)
+{
+    sim::SimulationSettings settings = test_settings(shared::KERNEL_PAPER);
+    settings.params.speed_limit = 3.0f;
+    ParticleSet set;
+    add_particle(set, glm::vec3(0.5f, 0.9f, 0.5f), glm::vec3(0.0f, -2.9f, 0.0f));
+    const std::string message = fault_message(context(), set, settings, 400);
+    EXPECT_NE(message.find("faster than"), std::string::npos) << message;
+}
+
+TEST_F(Steps, TooManyAndTooFewParticlesAreOneSentence)
+{
+    EXPECT_THROW(sim::Simulation(context(), ParticleSet{}, test_settings(shared::KERNEL_PAPER)), Error);
+    EXPECT_GE(sim::Simulation::particle_limit(context()), 1'000'000u);
+}
+
+TEST_F(Steps, NeighborStatisticsOfALattice)
+{
+    // Interior particles of a cubic lattice have 32 neighbors within 2 d (not counting those at 2 d exactly): 26 + 6 at
+    // 2 d are decided by rounding, so take a radius between shells.
+    sim::SimulationSettings settings = test_settings(shared::KERNEL_PAPER);
+    settings.params.support_radius = 1.9f * test_spacing; // 6 + 12 + 8 neighbors
+    set_kernel_scales(settings.params, shared::KERNEL_PAPER, static_cast<double>(test_spacing));
+    ParticleSet set = lattice_state({3, 3, 3}, glm::vec3(0.4f));
+    add_particle(set, set.position[0]);
+    sim::Simulation simulation(context(), set, settings);
+    const sim::NeighborStatistics statistics = simulation.neighbor_statistics();
+    // In a 3x3x3 block: 1 center with 26, 6 faces with 17, 12 edges with 11, 8 corners with 7; then the twin of a
+    // corner: it has that corner and its 7 neighbors, each of which has one more.
+    EXPECT_DOUBLE_EQ(statistics.mean, (26 + 6 * 17 + 12 * 11 + 8 * 7 + 8 + 8) / 28.0);
+    EXPECT_EQ(statistics.coincident, 2u);
+}
+
+} // namespace
+} // namespace meltpoint

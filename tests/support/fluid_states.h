@@ -1,0 +1,105 @@
+#pragma once
+
+#include <functional>
+#include <string>
+
+#include <glm/glm.hpp>
+
+#include "core/random.h"
+#include "particles/particle_set.h"
+#include "particles/sph_kernel.h"
+#include "sim/simulation.h"
+
+namespace meltpoint {
+
+/// A unit box with walls, spacing 0.05 m: what the conformance tests run in unless they say otherwise.
+inline constexpr float test_spacing = 0.05f;
+inline constexpr float test_rest_density = 1000.0f;
+
+inline sim::SimulationSettings test_settings(std::uint32_t kernel)
+{
+    sim::SimulationSettings settings;
+    settings.options.kernel = kernel;
+    shared::SphParams& params = settings.params;
+    params.domain_min = glm::vec3(0.0f);
+    params.domain_max = glm::vec3(1.0f);
+    params.support_radius = (kernel == shared::KERNEL_PAPER ? 2.0f : 3.0f) * test_spacing;
+    params.gravity = glm::vec3(0.0f, -9.81f, 0.0f);
+    params.wall_mask = 0x3f;
+    params.state_equation = shared::STATE_EQUATION_TAIT;
+    params.clamp_pressure = 1;
+    params.speed_of_sound = 40.0f;
+    params.gamma = 7.0f;
+    params.viscosity = 1.0f;
+    params.dt = 2e-4f;
+    params.speed_limit = 1000.0f;
+    for (float& density : params.rest_density) {
+        density = test_rest_density;
+    }
+    set_kernel_scales(params, kernel, static_cast<double>(test_spacing));
+    return settings;
+}
+
+inline void add_particle(ParticleSet& set, const glm::vec3& position, const glm::vec3& velocity = glm::vec3(0.0f))
+{
+    const std::size_t i = set.size();
+    set.resize(i + 1);
+    set.position[i] = position;
+    set.velocity[i] = velocity;
+    set.mass[i] = test_rest_density * test_spacing * test_spacing * test_spacing;
+}
+
+/// A cubic lattice block of size.x * size.y * size.z particles whose first particle's center is `corner`.
+inline ParticleSet lattice_state(const glm::uvec3& size, const glm::vec3& corner)
+{
+    ParticleSet set;
+    for (std::uint32_t z = 0; z < size.z; ++z) {
+        for (std::uint32_t y = 0; y < size.y; ++y) {
+            for (std::uint32_t x = 0; x < size.x; ++x) {
+                add_particle(set, corner + test_spacing * glm::vec3(x, y, z));
+            }
+        }
+    }
+    return set;
+}
+
+inline glm::vec3 random_vector(Random& random)
+{
+    return {static_cast<float>(random.uniform()), static_cast<float>(random.uniform()),
+            static_cast<float>(random.uniform())};
+}
+
+/// `count` particles anywhere in the part [low, high] of the unit box, with velocities up to 1 m/s along each axis.
+inline ParticleSet random_state(std::size_t count, const glm::vec3& low, const glm::vec3& high, std::uint64_t seed)
+{
+    Random random(seed);
+    ParticleSet set;
+    for (std::size_t i = 0; i < count; ++i) {
+        const glm::vec3 position = glm::mix(low, high, random_vector(random));
+        add_particle(set, position, 2.0f * random_vector(random) - 1.0f);
+    }
+    return set;
+}
+
+/// A drop that has just hit the floor, with spray above: dense, sparse and lone particles at once.
+inline ParticleSet splash_state(std::uint64_t seed)
+{
+    Random random(seed);
+    ParticleSet set = lattice_state({12, 4, 11}, glm::vec3(0.2f, 0.5f * test_spacing, 0.21f));
+    for (std::size_t i = 0; i < set.size(); ++i) {
+        set.position[i] += 0.3f * test_spacing * (random_vector(random) - 0.5f);
+        set.velocity[i] = 2.0f * (set.position[i] - glm::vec3(0.5f, 0.0f, 0.5f)) + random_vector(random) - 0.5f;
+    }
+    for (int i = 0; i < 301; ++i) {
+        add_particle(set, glm::mix(glm::vec3(0.01f), glm::vec3(0.99f), random_vector(random)),
+                     4.0f * random_vector(random) - 2.0f);
+    }
+    return set;
+}
+
+struct NamedState {
+    std::string name;
+    std::function<ParticleSet()> make;
+};
+
+} // namespace meltpoint
