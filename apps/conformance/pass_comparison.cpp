@@ -13,6 +13,7 @@
 #include "reference/measure.h"
 #include "reference/state.h"
 #include "reference/step.h"
+#include "shared/neighbor_count.h"
 #include "sim/wcsph.h"
 
 namespace meltpoint::conformance {
@@ -165,26 +166,39 @@ PassError compare_sort(Device& device)
     return result;
 }
 
+/// The sets of neighbors, by their size and the sum of their ids.
 PassError compare_neighbors(Device& device, const reference::State& twin)
 {
     const std::uint32_t count = device.particles.count;
-    const gpu::Buffer neighbors = gpu::make_buffer<std::uint32_t>(device.context, count, "neighbor counts");
-    const gpu::Buffer coincident = gpu::make_buffer<std::uint32_t>(device.context, count, "coincident counts");
+    const gpu::Buffer counts = gpu::make_buffer<shared::NeighborCount>(device.context, count, "neighbor counts");
     device.run([&] {
         sim::record_count_neighbors(device.commands, device.kernels, device.params_buffer, device.particles,
-                                    device.grid, neighbors, coincident);
+                                    device.grid, counts);
     });
-    const auto gpu = gpu::download<std::uint32_t>(device.context, neighbors, count);
+    const auto gpu = gpu::download<shared::NeighborCount>(device.context, counts, count);
 
-    // Counts with a support radius slightly smaller and slightly larger bracket what rounding may decide.
-    const double support = static_cast<double>(device.params.support_radius);
-    const reference::Neighbors fewest = reference::find_neighbors(twin.position, support * (1.0 - rounding_zone));
-    const reference::Neighbors most = reference::find_neighbors(twin.position, support * (1.0 + rounding_zone));
+    // Sets of a slightly smaller and a slightly larger support radius bracket what rounding may decide.
+    const auto neighbors_within = [&](float factor) {
+        shared::SphParams params = device.params;
+        params.wall_mask = 0;
+        params.support_radius *= factor;
+        return reference::find_neighbors(params, twin.position);
+    };
+    const reference::Neighbors fewest = neighbors_within(1.0f - static_cast<float>(rounding_zone));
+    const reference::Neighbors most = neighbors_within(1.0f + static_cast<float>(rounding_zone));
     PassError result{"neighbors", 0.0, 0.0};
     std::uint64_t wrong = 0;
     for (std::size_t i = 0; i < count; ++i) {
-        result.excluded += most.of(i).size() - fewest.of(i).size();
-        wrong += gpu[i] < fewest.of(i).size() || gpu[i] > most.of(i).size() ? 1 : 0;
+        std::uint32_t id_sum = 0;
+        for (const reference::Neighbor& neighbor : fewest.of(i)) {
+            id_sum += twin.id[neighbor.index];
+        }
+        const std::size_t undecided = most.of(i).size() - fewest.of(i).size();
+        result.excluded += undecided;
+        const bool right = undecided == 0
+                               ? gpu[i].neighbors == fewest.of(i).size() && gpu[i].id_sum == id_sum
+                               : gpu[i].neighbors >= fewest.of(i).size() && gpu[i].neighbors <= most.of(i).size();
+        wrong += right ? 0 : 1;
     }
     result.error = static_cast<double>(wrong) / count;
     return result;
@@ -255,8 +269,7 @@ std::vector<PassError> compare_passes(const gpu::Context& context, const Particl
     std::vector<PassError> errors = compare_kick_drift(device, twin_settings);
     errors.push_back(compare_sort(device));
     reference::State twin = reference::from_particle_set(download_unordered(context, device.particles));
-    const reference::Neighbors neighbors =
-        reference::find_neighbors(twin.position, static_cast<double>(device.params.support_radius));
+    const reference::Neighbors neighbors = reference::find_neighbors(device.params, twin.position);
     errors.push_back(compare_neighbors(device, twin));
     for (PassError& error : compare_density(device, twin_settings, twin, neighbors)) {
         errors.push_back(std::move(error));
@@ -282,8 +295,7 @@ std::vector<PassError> compare_steps(const gpu::Context& context, const Particle
     const reference::State gpu = reference::from_particle_set(simulation.download());
 
     if (steps == 1) {
-        const reference::Neighbors neighbors =
-            reference::find_neighbors(twin.position, static_cast<double>(simulation.params().support_radius));
+        const reference::Neighbors neighbors = reference::find_neighbors(simulation.params(), twin.position);
         const reference::Accelerations terms = reference::accelerations(twin_settings, twin, neighbors);
         // Near rest the terms vanish with the pressure, which itself is right to within rounding of c0^2 rho0.
         const double c0 = static_cast<double>(simulation.params().speed_of_sound);

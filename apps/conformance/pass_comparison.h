@@ -29,7 +29,7 @@ inline constexpr double run_bound = 1e-3;
 ///
 /// Measures. Kick, drift, density: L2(gpu - ref) / L2(ref). Pressure: the same over c0^2 rho0 of each particle. Forces:
 /// over the sum of the absolute values of the terms, since at rest they cancel. Sort: 1 unless the order is exactly
-/// that of (cell, id) and nothing is lost. Neighbors: the share of particles with a wrong neighbor count.
+/// that of (cell, id) and nothing is lost. Neighbors: the share of particles with a wrong set.
 [[nodiscard]] std::vector<PassError> compare_passes(const gpu::Context& context, const ParticleSet& particles,
                                                     const sim::SimulationSettings& settings);
 

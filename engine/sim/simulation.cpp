@@ -5,6 +5,7 @@
 
 #include "core/error.h"
 #include "gpu/transfer.h"
+#include "shared/neighbor_count.h"
 #include "sim/wcsph.h"
 
 namespace meltpoint::sim {
@@ -118,20 +119,17 @@ ParticleSet Simulation::download() const
 NeighborStatistics Simulation::neighbor_statistics()
 {
     const std::uint32_t count = params_.particle_count;
-    const gpu::Buffer neighbors = gpu::make_buffer<std::uint32_t>(*context_, count, "neighbor counts");
-    const gpu::Buffer coincident = gpu::make_buffer<std::uint32_t>(*context_, count, "coincident counts");
+    const gpu::Buffer counts = gpu::make_buffer<shared::NeighborCount>(*context_, count, "neighbor counts");
     commands_->begin();
-    record_count_neighbors(*commands_, kernels_, params_buffer_, particles_, grid_, neighbors, coincident);
+    record_count_neighbors(*commands_, kernels_, params_buffer_, particles_, grid_, counts);
     commands_->submit();
     commands_->wait();
 
     NeighborStatistics statistics;
     std::uint64_t sum = 0;
-    for (const std::uint32_t n : gpu::download<std::uint32_t>(*context_, neighbors, count)) {
-        sum += n;
-    }
-    for (const std::uint32_t n : gpu::download<std::uint32_t>(*context_, coincident, count)) {
-        statistics.coincident += n;
+    for (const shared::NeighborCount& found : gpu::download<shared::NeighborCount>(*context_, counts, count)) {
+        sum += found.neighbors;
+        statistics.coincident += found.coincident;
     }
     statistics.mean = static_cast<double>(sum) / count;
     return statistics;

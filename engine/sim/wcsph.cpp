@@ -42,13 +42,12 @@ void record_kick(gpu::Commands& commands, const FluidKernels& kernels, const gpu
 }
 
 void record_count_neighbors(gpu::Commands& commands, const FluidKernels& kernels, const gpu::Buffer& params,
-                            const ParticleBuffers& particles, const NeighborGrid& grid, const gpu::Buffer& neighbors,
-                            const gpu::Buffer& coincident)
+                            const ParticleBuffers& particles, const NeighborGrid& grid, const gpu::Buffer& counts)
 {
     const gpu::Scope scope(commands, "count neighbors");
     commands.dispatch(
         kernels.count_neighbors, kernels.tiles(particles.count), gpu::NoPush{},
-        {read(params), read(grid.cell_start), read(particles.position), write(neighbors), write(coincident)});
+        {read(params), read(grid.cell_start), read(particles.position), read(particles.id), write(counts)});
 }
 
 void record_evaluation(gpu::Commands& commands, const FluidKernels& kernels, const gpu::Buffer& params,

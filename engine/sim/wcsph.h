@@ -28,11 +28,9 @@ void record_forces(gpu::Commands& commands, const FluidKernels& kernels, const g
 void record_kick(gpu::Commands& commands, const FluidKernels& kernels, const gpu::Buffer& params,
                  const ParticleBuffers& particles);
 
-/// Neighbors within the support radius, itself not counted, and coincident others, two uints a particle, for
-/// statistics.
+/// For statistics and tests: `counts` gets a shared::NeighborCount for each particle.
 void record_count_neighbors(gpu::Commands& commands, const FluidKernels& kernels, const gpu::Buffer& params,
-                            const ParticleBuffers& particles, const NeighborGrid& grid, const gpu::Buffer& neighbors,
-                            const gpu::Buffer& coincident);
+                            const ParticleBuffers& particles, const NeighborGrid& grid, const gpu::Buffer& counts);
 
 /// Sort, density, forces: what the first step needs to have behind it.
 void record_evaluation(gpu::Commands& commands, const FluidKernels& kernels, const gpu::Buffer& params,

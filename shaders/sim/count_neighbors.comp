@@ -5,11 +5,12 @@
 #define CELL_START_BINDING 1
 #include "include/invocation.glsl"
 #include "include/neighbor_walk.glsl"
+#include "shared/neighbor_count.h"
 
 layout(set = 0, binding = 0, scalar) readonly buffer Params { SphParams params; };
 layout(set = 0, binding = 2, scalar) readonly buffer Position { vec4 position[]; };
-layout(set = 0, binding = 3, scalar) writeonly buffer Neighbors { uint neighbors[]; };
-layout(set = 0, binding = 4, scalar) writeonly buffer Coincident { uint coincident[]; };
+layout(set = 0, binding = 3, scalar) readonly buffer Id { uint id[]; };
+layout(set = 0, binding = 4, scalar) writeonly buffer Counts { NeighborCount counts[]; };
 
 void main()
 {
@@ -20,30 +21,30 @@ void main()
     uint last = min(first + TILE, params.particle_count) - 1u;
 
     vec3 x[TILE];
-    uint within[TILE];
-    uint touching[TILE];
+    NeighborCount found[TILE];
     Walk walk = empty_walk(params.grid_size);
     for (uint k = 0u; k < TILE; ++k) {
         x[k] = position[min(first + k, last)].xyz;
         include_position(walk, x[k], params.domain_min, params.support_radius);
-        within[k] = 0u;
-        touching[k] = 0u;
+        found[k] = NeighborCount(0u, 0u, 0u);
     }
 
     float support2 = params.support_radius * params.support_radius;
     float coincident2 = COINCIDENT_RATIO * COINCIDENT_RATIO * support2;
     FOR_EACH_CANDIDATE(range, walk) {
         vec3 xj = position[range.x].xyz;
+        uint id_j = id[range.x];
         for (uint k = 0u; k < TILE; ++k) {
             vec3 offset = x[k] - xj;
             float r2 = dot(offset, offset);
-            within[k] += r2 < support2 ? 1u : 0u;
-            touching[k] += r2 <= coincident2 ? 1u : 0u;
+            bool other = range.x != first + k;
+            found[k].neighbors += other && r2 < support2 ? 1u : 0u;
+            found[k].id_sum += other && r2 < support2 ? id_j : 0u;
+            found[k].coincident += other && r2 <= coincident2 ? 1u : 0u;
         }
     }
 
     for (uint k = 0u; k < TILE && first + k <= last; ++k) {
-        neighbors[first + k] = within[k] - 1u; // without itself
-        coincident[first + k] = touching[k] - 1u;
+        counts[first + k] = found[k];
     }
 }
