@@ -4,6 +4,7 @@
 #include <array>
 #include <cctype>
 #include <fstream>
+#include <span>
 #include <string>
 #include <string_view>
 #include <system_error>
@@ -12,11 +13,11 @@
 #include <assimp/Importer.hpp>
 #include <assimp/MemoryIOWrapper.h>
 #include <assimp/importerdesc.h>
-#include <assimp/postprocess.h>
 #include <assimp/scene.h>
 #include <fmt/ranges.h>
 
 #include "core/error.h"
+#include "geometry/polygon_triangulation.h"
 
 namespace meltpoint {
 
@@ -24,7 +25,7 @@ namespace {
 
 constexpr std::array<std::string_view, 1> supported_extensions = {"obj"};
 constexpr std::uintmax_t largest_file = std::uintmax_t{2} << 30; // bytes
-constexpr unsigned most_polygon_corners = 4096;                  // triangulation takes their square
+constexpr unsigned most_polygon_corners = 4096;                  // triangulation takes the square of their number
 constexpr std::size_t most_triangles = 200'000'000;
 constexpr int deepest_node = 1000;
 
@@ -109,9 +110,7 @@ void append(TriangleMesh& whole, const aiMesh& part, const glm::mat4& placement)
     }
     for (unsigned i = 0; i < part.mNumFaces; ++i) {
         const aiFace& face = part.mFaces[i];
-        if (face.mNumIndices == 3) {
-            mesh.triangles.emplace_back(face.mIndices[0], face.mIndices[1], face.mIndices[2]);
-        }
+        triangulate_polygon({face.mIndices, face.mNumIndices}, mesh.positions, mesh.triangles);
     }
     transform(mesh, placement);
 
@@ -146,14 +145,20 @@ void append_node(TriangleMesh& whole, const aiScene& scene, const aiNode& node, 
     }
 }
 
-void check_polygons(const aiScene& scene, const std::string& name)
+/// What triangulation relies on.
+void check_faces(const aiScene& scene, const std::string& name)
 {
     for (unsigned i = 0; i < scene.mNumMeshes; ++i) {
         const aiMesh& part = *scene.mMeshes[i];
-        for (unsigned j = 0; j < part.mNumFaces; ++j) {
-            if (part.mFaces[j].mNumIndices > most_polygon_corners) {
-                throw input_error("{}: a polygon has {} corners, at most {} are supported", name,
-                                  part.mFaces[j].mNumIndices, most_polygon_corners);
+        for (const aiFace& face : std::span(part.mFaces, part.mNumFaces)) {
+            if (face.mNumIndices > most_polygon_corners) {
+                throw input_error("{}: a polygon has {} corners, at most {} are supported", name, face.mNumIndices,
+                                  most_polygon_corners);
+            }
+            for (const unsigned index : std::span(face.mIndices, face.mNumIndices)) {
+                if (index >= part.mNumVertices) {
+                    throw input_error("{}: a face names vertex {} of {}", name, index, part.mNumVertices);
+                }
             }
         }
     }
@@ -193,11 +198,7 @@ TriangleMesh import_mesh(const std::filesystem::path& path)
     if (scene->mNumMeshes == 0 || scene->mRootNode == nullptr) {
         throw input_error("{}: the file holds no mesh", name);
     }
-    check_polygons(*scene, name);
-    scene = importer.ApplyPostProcessing(aiProcess_Triangulate);
-    if (scene == nullptr) {
-        throw input_error("{}: cannot be triangulated ({})", name, reason(importer.GetErrorString()));
-    }
+    check_faces(*scene, name);
 
     TriangleMesh mesh;
     append_node(mesh, *scene, *scene->mRootNode, glm::mat4(1.0f), 0, name);
