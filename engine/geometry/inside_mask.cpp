@@ -1,10 +1,7 @@
-// Away from the surface the winding number is harmonic and hardly changes, so whole blocks of cells are decided at once
-// and only those near the surface are halved down to their points: the work grows with the area, not with the volume.
+// Between cells that no triangle touches, the winding number of the closed mesh is a constant: a row of them needs one
+// query. So the costly queries grow with the surface, not with the volume.
 
 #include "geometry/inside_mask.h"
-
-#include <algorithm>
-#include <cmath>
 
 #include "core/parallel_for.h"
 #include "core/random.h"
@@ -13,76 +10,51 @@ namespace meltpoint {
 
 namespace {
 
-constexpr double threshold = 0.5;
-constexpr std::uint32_t task_edge = 16;     // cells along the edge of a block that one task fills
-constexpr std::uint32_t smallest_block = 8; // cells: fewer are decided one by one
+constexpr std::uint32_t task_edge = 16; // cells along the edge of a block that one task marks
 
-struct Block {
-    glm::uvec3 begin;
-    glm::uvec3 end;
-
-    [[nodiscard]] std::size_t size() const
-    {
-        const glm::uvec3 edge = end - begin;
-        return std::size_t{edge.x} * edge.y * edge.z;
-    }
-};
-
-template <class Visit>
-void for_each_cell(const Block& block, const Visit& visit)
-{
-    for (std::uint32_t z = block.begin.z; z < block.end.z; ++z) {
-        for (std::uint32_t y = block.begin.y; y < block.end.y; ++y) {
-            for (std::uint32_t x = block.begin.x; x < block.end.x; ++x) {
-                visit(glm::uvec3(x, y, z));
-            }
-        }
-    }
-}
-
-class MaskFiller {
+/// Marks the cells that a triangle may touch, halving blocks until they are free of triangles or single cells.
+class SurfaceMarker {
 public:
-    MaskFiller(const WindingNumber& winding, const CellGrid& grid, std::vector<std::uint8_t>& mask)
-        : winding_(winding), grid_(grid), mask_(mask)
+    SurfaceMarker(const SolidRegion& region, const CellGrid& grid, std::vector<std::uint8_t>& marks)
+        : region_(region), grid_(grid), marks_(marks)
     {
     }
 
-    void fill(const Block& block) const
+    void mark(const glm::uvec3& begin, const glm::uvec3& end) const
     {
-        if (block.size() < smallest_block) {
-            for_each_cell(block, [&](const glm::uvec3& cell) {
-                mask_[grid_.index(cell)] = winding_.at(grid_.point(cell)) >= threshold ? 1 : 0;
-            });
+        const glm::dvec3 low = grid_.origin + grid_.cell_size * glm::dvec3(begin);
+        const glm::dvec3 high = grid_.origin + grid_.cell_size * glm::dvec3(end);
+        if (!region_.may_change_within(low, high)) {
             return;
         }
-        const glm::dvec3 half_size = 0.5 * grid_.cell_size * glm::dvec3(block.end - block.begin);
-        const glm::dvec3 center = grid_.origin + grid_.cell_size * glm::dvec3(block.begin) + half_size;
-        const double half_diagonal = glm::length(half_size);
-        // With no surface, hence no hole's rim, within two half diagonals, w is harmonic there. The steepest that it
-        // then gets is in the middle of a round hole of radius 2 h: it changes by 1/2 (1/2) / sqrt(1 + 1/4) = 0.22
-        // over the half diagonal h. So a block 1/4 away from the threshold does not cross it.
-        if (!winding_.surface_may_be_within(2.0 * half_diagonal, center)) {
-            const double w = winding_.at(center);
-            if (std::abs(w - threshold) >= 0.25) {
-                for_each_cell(block,
-                              [&](const glm::uvec3& cell) { mask_[grid_.index(cell)] = w >= threshold ? 1 : 0; });
-                return;
-            }
+        const glm::uvec3 edge = end - begin;
+        if (edge == glm::uvec3(1)) {
+            marks_[grid_.index(begin)] = 1;
+            return;
         }
-        const glm::uvec3 edge = block.end - block.begin;
         const int axis = edge.x >= edge.y && edge.x >= edge.z ? 0 : edge.y >= edge.z ? 1 : 2;
-        Block low = block;
-        Block high = block;
-        low.end[axis] = high.begin[axis] = block.begin[axis] + edge[axis] / 2;
-        fill(low);
-        fill(high);
+        glm::uvec3 low_end = end;
+        glm::uvec3 high_begin = begin;
+        low_end[axis] = high_begin[axis] = begin[axis] + edge[axis] / 2;
+        mark(begin, low_end);
+        mark(high_begin, end);
     }
 
 private:
-    const WindingNumber& winding_;
+    const SolidRegion& region_;
     const CellGrid& grid_;
-    std::vector<std::uint8_t>& mask_;
+    std::vector<std::uint8_t>& marks_;
 };
+
+void mark_surface(const SolidRegion& region, const CellGrid& grid, std::vector<std::uint8_t>& marks)
+{
+    const SurfaceMarker marker(region, grid, marks);
+    const glm::uvec3 tasks = (grid.count + (task_edge - 1)) / task_edge;
+    parallel_for(std::size_t{tasks.x} * tasks.y * tasks.z, [&](std::size_t task) {
+        const glm::uvec3 block(task % tasks.x, task / tasks.x % tasks.y, task / (std::size_t{tasks.x} * tasks.y));
+        marker.mark(task_edge * block, glm::min(task_edge * (block + 1u), grid.count));
+    });
+}
 
 } // namespace
 
@@ -98,15 +70,24 @@ glm::dvec3 CellGrid::point(const glm::uvec3& cell) const
     return origin + cell_size * (glm::dvec3(cell) + within);
 }
 
-std::vector<std::uint8_t> inside_mask(const WindingNumber& winding, const CellGrid& grid)
+std::vector<std::uint8_t> inside_mask(const SolidRegion& region, const CellGrid& grid)
 {
-    std::vector<std::uint8_t> mask(grid.size());
-    const MaskFiller filler(winding, grid, mask);
-    const glm::uvec3 tasks = (grid.count + (task_edge - 1)) / task_edge;
-    parallel_for(std::size_t{tasks.x} * tasks.y * tasks.z, [&](std::size_t task) {
-        const glm::uvec3 begin =
-            task_edge * glm::uvec3(task % tasks.x, task / tasks.x % tasks.y, task / (std::size_t{tasks.x} * tasks.y));
-        filler.fill({begin, glm::min(begin + task_edge, grid.count)});
+    std::vector<std::uint8_t> mask(grid.size(), 0);
+    mark_surface(region, grid, mask);
+    parallel_for(std::size_t{grid.count.y} * grid.count.z, [&](std::size_t row) {
+        std::optional<double> closed; // of the run of free cells that the row is in
+        glm::uvec3 cell(0, row % grid.count.y, row / grid.count.y);
+        for (cell.x = 0; cell.x < grid.count.x; ++cell.x) {
+            std::uint8_t& inside = mask[grid.index(cell)];
+            const glm::dvec3 point = grid.point(cell);
+            if (inside != 0) {
+                inside = region.contains(point) ? 1 : 0;
+                closed.reset();
+            } else {
+                closed = closed ? closed : region.closed_at(point);
+                inside = region.contains(point, *closed) ? 1 : 0;
+            }
+        }
     });
     return mask;
 }

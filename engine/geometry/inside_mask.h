@@ -7,7 +7,7 @@
 
 #include <glm/glm.hpp>
 
-#include "geometry/winding_number.h"
+#include "geometry/solid_region.h"
 
 namespace meltpoint {
 
@@ -27,7 +27,7 @@ struct CellGrid {
     [[nodiscard]] glm::dvec3 point(const glm::uvec3& cell) const;
 };
 
-/// One byte a cell: 1 where the cell's point is inside the surface (winding number >= 1/2), else 0.
-[[nodiscard]] std::vector<std::uint8_t> inside_mask(const WindingNumber& winding, const CellGrid& grid);
+/// One byte a cell: 1 where the region contains the cell's point, else 0.
+[[nodiscard]] std::vector<std::uint8_t> inside_mask(const SolidRegion& region, const CellGrid& grid);
 
 } // namespace meltpoint

@@ -41,7 +41,7 @@ glm::dvec3 centroid(const std::array<glm::dvec3, 3>& triangle)
 
 } // namespace
 
-WindingNumber::WindingNumber(const TriangleMesh& mesh, double accuracy) : accuracy_(accuracy)
+WindingNumber::WindingNumber(const TriangleMesh& mesh)
 {
     triangles_.reserve(mesh.triangles.size());
     for (const glm::uvec3& triangle : mesh.triangles) {
@@ -152,7 +152,7 @@ WindingNumber::Box WindingNumber::box_of(const Triangle& triangle)
             glm::max(triangle[0], glm::max(triangle[1], triangle[2]))};
 }
 
-double WindingNumber::at(const glm::dvec3& point) const
+double WindingNumber::at(const glm::dvec3& point, double accuracy) const
 {
     double sum = 0.0;
     std::array<std::uint32_t, stack_size> stack{};
@@ -162,7 +162,7 @@ double WindingNumber::at(const glm::dvec3& point) const
         const Node& node = nodes_[index];
         const glm::dvec3 r = node.far_field.center - point;
         const double r2 = glm::dot(r, r);
-        const double reach = accuracy_ * node.far_field.radius;
+        const double reach = accuracy * node.far_field.radius;
         if (r2 > reach * reach) {
             sum += node.far_field.solid_angle(r, r2);
         } else if (node.right == 0) {
@@ -177,11 +177,10 @@ double WindingNumber::at(const glm::dvec3& point) const
     return sum / (4.0 * std::numbers::pi);
 }
 
-bool WindingNumber::surface_may_be_within(double radius, const glm::dvec3& center) const
+bool WindingNumber::may_touch_box(const glm::dvec3& low, const glm::dvec3& high) const
 {
     const auto near = [&](const Box& box) {
-        const glm::dvec3 gap = center - glm::clamp(center, box.min, box.max);
-        return glm::dot(gap, gap) <= radius * radius;
+        return glm::all(glm::lessThanEqual(box.min, high)) && glm::all(glm::lessThanEqual(low, box.max));
     };
     std::array<std::uint32_t, stack_size> stack{};
     int waiting = nodes_.empty() ? 0 : 1;
