@@ -1,7 +1,10 @@
 #pragma once
 
+#include <array>
 #include <cmath>
 #include <cstdint>
+#include <map>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -100,7 +103,7 @@ protected:
         const gpu::Buffer normals = to_device(context(), disc_normal, "disc normal");
         const gpu::Buffer colors = to_device(context(), disc_color, "disc color");
 
-        render::Renderer renderer(context(), width, height, samples);
+        render::Renderer& renderer = renderer_of(width, height, samples);
         gpu::Commands commands(context());
         commands.begin();
         renderer.draw(commands,
@@ -111,6 +114,19 @@ protected:
         commands.submit();
         commands.wait();
         return {renderer.capture(), renderer.capture_distance()};
+    }
+
+private:
+    /// Renderers are kept from test to test: many small pictures are drawn.
+    static render::Renderer& renderer_of(std::uint32_t width, std::uint32_t height, std::uint32_t samples)
+    {
+        gpu::Context& device = context(); // first, so that it outlives the renderers
+        static std::map<std::array<std::uint32_t, 3>, std::unique_ptr<render::Renderer>> renderers;
+        std::unique_ptr<render::Renderer>& renderer = renderers[{width, height, samples}];
+        if (!renderer) {
+            renderer = std::make_unique<render::Renderer>(device, width, height, samples);
+        }
+        return *renderer;
     }
 };
 
