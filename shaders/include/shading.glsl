@@ -19,6 +19,8 @@ const Gloss WATER = Gloss(0.35, 60.0, 0.55);
 const Gloss MATTE = Gloss(0.06, 24.0, 0.06); // data modes: the hue must stay readable
 const Gloss STONE = Gloss(0.12, 20.0, 0.10);
 
+const float FLOOR_SHADOW = 0.42; // how much of the floor's light is the key light's
+
 // light: share of the key light that arrives. All directions unit length, pointing away from the surface.
 vec3 shade(vec3 albedo, Gloss gloss, vec3 normal, vec3 to_eye, vec3 to_light, float light)
 {

@@ -25,47 +25,17 @@ layout(location = 0) out vec4 out_color;
 vec3 to_world(vec3 point) { return (params.view_to_world * vec4(point, 1.0)).xyz; }
 vec3 to_world_direction(vec3 direction) { return mat3(params.view_to_world) * direction; }
 
-// --- shadow ----------------------------------------------------------------------------------------------------------------
+// What a sample shows, in world space.
+struct Surface {
+    vec3 point;
+    vec3 normal;
+    vec3 albedo;
+    Gloss gloss;
+};
 
-// Share of the key light that reaches a point: percentage-closer filtering (Reeves, Salesin & Cook 1987) over 3 x 3 texels,
-// weighted by their overlap with a square around the point so that the result is smooth.
-float key_light_at(vec3 world, vec3 normal)
-{
-    if (params.shadows == 0u) {
-        return 1.0;
-    }
-    float lift = 0.5 * params.splat_radius; // off the surface, or it would shade itself
-    vec3 p = (params.light.view * vec4(world + normal * lift, 1.0)).xyz;
-    vec2 ndc = (p.xy - params.light.plane_offset) / params.light.plane_scale;
-    if (any(greaterThan(abs(ndc), vec2(1.0)))) {
-        return 1.0;
-    }
-    // Behind the far plane nothing casts shadows: the cleared map, 0, must not shade it.
-    float depth = max(depth_at(params.light, -p.z - lift), 0.0);
+// --- particles and discs -------------------------------------------------------------------------------------------------
 
-    vec2 size = vec2(textureSize(shadow_map, 0));
-    vec2 at = 0.5 * (ndc + 1.0) * size - 0.5;
-    vec2 corner = floor(at);
-    vec2 f = at - corner;
-    // Each gather fetches 2 x 2 texels: (0,1) (1,1) (1,0) (0,0). Four of them cover texels -1..2 with weights 1-f 1 1 f.
-    float lit = 0.0;
-    for (int i = 0; i < 4; ++i) {
-        bvec2 upper = bvec2((i & 1) != 0, (i & 2) != 0);
-        vec2 offset = mix(vec2(0.0), vec2(2.0), upper);
-        vec2 low = mix(1.0 - f, vec2(1.0), upper);
-        vec2 high = mix(vec2(1.0), f, upper);
-        vec4 passes = step(textureGather(shadow_map, (corner + offset) / size), vec4(depth));
-        lit += dot(passes, vec4(low.x * high.y, high.x * high.y, high.x * low.y, low.x * low.y));
-    }
-    return lit / 9.0;
-}
-
-// --- color -----------------------------------------------------------------------------------------------------------------
-
-float in_range(float value)
-{
-    return (value - params.color_range.x) / (params.color_range.y - params.color_range.x);
-}
+float in_range(float value) { return (value - params.color_range.x) / (params.color_range.y - params.color_range.x); }
 
 vec3 particle_color(uint particle)
 {
@@ -90,86 +60,140 @@ Gloss particle_gloss(uint particle)
     return particle_state(attributes[particle]) == STATE_FLUID ? WATER : STONE;
 }
 
-// normal and point in view space.
-vec3 surface_color(vec3 albedo, Gloss gloss, vec3 point, vec3 normal, Ray ray)
-{
-    vec3 world_normal = to_world_direction(normal);
-    if (params.color_mode == COLOR_NORMAL) {
-        return 0.5 * world_normal + 0.5;
-    }
-    if (params.lit == 0u) {
-        return albedo;
-    }
-    float light = key_light_at(to_world(point), world_normal);
-    return shade(albedo, gloss, world_normal, to_world_direction(-ray.direction), params.light_direction, light);
-}
-
-vec3 sphere_color(uint particle, Ray ray)
+Surface sphere_surface(uint particle, Ray ray)
 {
     vec3 center = (params.camera.view * vec4(position[particle].xyz, 1.0)).xyz;
     float miss;
     vec3 point = intersect_sphere(params.camera, ray, center, params.splat_radius, miss);
-    vec3 normal = normalize(point - center);
-    return surface_color(particle_color(particle), particle_gloss(particle), point, normal, ray);
+    vec3 normal = to_world_direction(normalize(point - center));
+    return Surface(to_world(point), normal, particle_color(particle), particle_gloss(particle));
 }
 
-vec3 disc_splat_color(uint disc, Ray ray)
+Surface disc_surface(uint disc, Ray ray)
 {
     vec3 center = (params.camera.view * vec4(disc_position_radius[disc].xyz, 1.0)).xyz;
     vec3 normal = normalize(mat3(params.camera.view) * disc_normal[disc].xyz);
     float rho_squared;
     vec3 point = intersect_disc(ray, center, normal, disc_position_radius[disc].w, rho_squared);
-    normal = dot(normal, ray.direction) > 0.0 ? -normal : normal;
-    return surface_color(disc_color[disc].rgb, STONE, point, normal, ray);
+    normal = to_world_direction(dot(normal, ray.direction) > 0.0 ? -normal : normal);
+    return Surface(to_world(point), normal, disc_color[disc].rgb, STONE);
 }
 
 // --- floor -----------------------------------------------------------------------------------------------------------------
 
-// Coverage of lines `spacing` apart, one in twelve of it wide at most, filtered over the pixel's footprint.
+// Coverage of lines `spacing` apart, filtered over the pixel's footprint so that they fade instead of flickering.
 float grid_lines(vec2 p, vec2 footprint, float spacing)
 {
-    vec2 width = max(footprint, vec2(0.008 * spacing));
+    float thickness = 0.008 * spacing;
+    vec2 width = max(footprint, vec2(thickness));
     vec2 to_line = abs(fract(p / spacing + 0.5) - 0.5) * spacing;
-    vec2 line = clamp(1.0 - to_line / width, 0.0, 1.0) * (0.008 * spacing / width);
+    vec2 line = clamp(1.0 - to_line / width, 0.0, 1.0) * (thickness / width);
     return max(line.x, line.y);
 }
 
-vec3 floor_color(Ray ray)
+// Where the ray meets the floor, how much of it is left of its fade, and its color; false where there is only background.
+bool floor_hit(Ray ray, out vec3 hit, out float presence, out vec3 albedo)
 {
     vec3 origin = to_world(ray.origin);
     vec3 direction = to_world_direction(ray.direction);
     float t = (params.floor_height - origin.y) / direction.y;
-    vec3 hit = origin + t * direction;
-    float depth = dot(t * ray.direction, vec3(0.0, 0.0, -1.0));
-    float far = length(hit.xz - params.floor_center) / params.floor_extent;
-    if (params.floor_extent <= 0.0 || direction.y >= 0.0 || depth < params.camera.near_distance || !(far < 1.0)) {
-        return params.background;
+    hit = origin + t * direction;
+    float radius = length(hit.xz - params.floor_center) / params.floor_extent;
+    bool in_front = -(ray.origin.z + t * ray.direction.z) >= params.camera.near_distance;
+    if (params.floor_extent <= 0.0 || direction.y >= 0.0 || !in_front || !(radius < 1.0)) {
+        return false;
     }
-    vec3 up = vec3(0.0, 1.0, 0.0);
-    float light = params.lit != 0u ? key_light_at(hit, up) : 1.0;
-    vec2 plane_step = abs(params.camera.pixel * params.camera.plane_scale) * float(params.samples);
-    float across = params.camera.orthographic != 0u ? plane_step.x : plane_step.x * t;
+    vec2 pixel = abs(params.camera.pixel * params.camera.plane_scale) * float(params.samples);
+    float across = params.camera.orthographic != 0u ? pixel.x : pixel.x * t;
     vec2 footprint = vec2(across) / max(abs(direction.y), 0.02);
-    vec3 albedo = params.floor_color * (1.0 - 0.10 * grid_lines(hit.xz, footprint, params.floor_grid));
-    float shadow = 1.0 - 0.42 * (1.0 - light);
-    return mix(albedo * shadow, params.background, smoothstep(0.35, 1.0, far));
+    albedo = params.floor_color * (1.0 - 0.10 * grid_lines(hit.xz, footprint, params.floor_grid));
+    presence = 1.0 - smoothstep(0.35, 1.0, radius);
+    return true;
+}
+
+// --- light -----------------------------------------------------------------------------------------------------------------
+
+// Whether the way from a point to the light passes the bounds, grown by a particle: outside of them nothing casts shadows.
+bool bounds_shade(vec3 world)
+{
+    vec3 inverse = 1.0 / params.light_direction;
+    vec3 a = (params.box_min - params.splat_radius - world) * inverse;
+    vec3 b = (params.box_max + params.splat_radius - world) * inverse;
+    vec3 enter = min(a, b);
+    vec3 leave = max(a, b);
+    return max(max(max(enter.x, enter.y), enter.z), 0.0) <= min(min(leave.x, leave.y), leave.z);
+}
+
+// Share of the key light that reaches a point: percentage-closer filtering (Reeves, Salesin & Cook 1987) of 2 x 2 texels,
+// or of 3 x 3 on the smooth floor, weighted by their overlap with a square around the point.
+float key_light_at(vec3 world, vec3 normal, bool wide)
+{
+    if (params.shadows == 0u || dot(normal, params.light_direction) <= 0.0 || !bounds_shade(world)) {
+        return 1.0;
+    }
+    float lift = 0.5 * params.splat_radius; // off the surface, or it would shade itself
+    vec3 p = (params.light.view * vec4(world + normal * lift, 1.0)).xyz;
+    vec2 ndc = (p.xy - params.light.plane_offset) / params.light.plane_scale;
+    if (any(greaterThan(abs(ndc), vec2(1.0)))) {
+        return 1.0;
+    }
+    // Behind the far plane nothing casts shadows: the cleared map, 0, must not shade it.
+    float depth = max(depth_at(params.light, -p.z - lift), 0.0);
+
+    vec2 size = vec2(textureSize(shadow_map, 0));
+    vec2 at = 0.5 * (ndc + 1.0) * size - 0.5;
+    vec2 corner = floor(at);
+    vec2 f = at - corner;
+    // A gather fetches the 2 x 2 texels (0,1) (1,1) (1,0) (0,0). Four of them cover texels -1..2 with weights 1-f 1 1 f.
+    int gathers = wide ? 4 : 1;
+    float lit = 0.0;
+    for (int i = 0; i < gathers; ++i) {
+        bvec2 upper = bvec2((i & 1) != 0, (i & 2) != 0);
+        vec2 texel = wide ? corner + mix(vec2(0.0), vec2(2.0), upper) : corner + 1.0;
+        vec2 low = wide ? mix(1.0 - f, vec2(1.0), upper) : 1.0 - f;
+        vec2 high = wide ? mix(vec2(1.0), f, upper) : f;
+        vec4 passes = step(textureGather(shadow_map, texel / size), vec4(depth));
+        lit += dot(passes, vec4(low.x * high.y, high.x * high.y, high.x * low.y, low.x * low.y));
+    }
+    return wide ? lit / 9.0 : lit;
 }
 
 // --- the picture -------------------------------------------------------------------------------------------------------------
 
-vec3 sample_color(uint surface, vec2 fragment)
+// Color of one sample. All surfaces meet in one look-up of the shadow, which is most of the work.
+vec3 sample_color(uint visible, vec2 fragment)
 {
+    uint kind = visible >> SURFACE_SHIFT;
+    uint index = visible & ((1u << SURFACE_SHIFT) - 1u);
     Ray ray = ray_through(params.camera, ndc_of_sample(params.camera, fragment));
-    uint index = surface & ((1u << SURFACE_SHIFT) - 1u);
-    switch (surface >> SURFACE_SHIFT) {
-    case SURFACE_SPHERE:
-        return sphere_color(index, ray);
-    case SURFACE_DISC:
-        return disc_splat_color(index, ray);
-    case SURFACE_LINE:
+
+    Surface surface;
+    float presence = 1.0;
+    if (kind == SURFACE_SPHERE) {
+        surface = sphere_surface(index, ray);
+    } else if (kind == SURFACE_DISC) {
+        surface = disc_surface(index, ray);
+    } else if (kind == SURFACE_LINE) {
         return params.line_color;
+    } else if (floor_hit(ray, surface.point, presence, surface.albedo)) {
+        surface.normal = vec3(0.0, 1.0, 0.0);
+    } else {
+        return params.background;
     }
-    return floor_color(ray);
+    bool is_floor = kind == SURFACE_NONE;
+
+    if (params.color_mode == COLOR_NORMAL && !is_floor) {
+        return 0.5 * surface.normal + 0.5;
+    }
+    if (params.lit == 0u) {
+        return mix(params.background, surface.albedo, presence);
+    }
+    float light = key_light_at(surface.point, surface.normal, is_floor);
+    if (is_floor) {
+        return mix(params.background, surface.albedo * (1.0 - FLOOR_SHADOW * (1.0 - light)), presence);
+    }
+    vec3 to_eye = to_world_direction(-ray.direction);
+    return shade(surface.albedo, surface.gloss, surface.normal, to_eye, params.light_direction, light);
 }
 
 void main()
