@@ -19,7 +19,7 @@ std::vector<std::string> builtin_scene_names()
 
 Scene builtin_scene(std::string_view name, std::span<const std::string> overrides)
 {
-    const auto scene = std::ranges::find(BUILTIN_SCENES, name, &BuiltinScene::name);
+    const auto* scene = std::ranges::find(BUILTIN_SCENES, name, &BuiltinScene::name);
     if (scene == std::end(BUILTIN_SCENES)) {
         const std::vector<std::string> names = builtin_scene_names();
         const auto nearest = nearest_name(name, names);

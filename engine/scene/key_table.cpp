@@ -215,8 +215,10 @@ FluidKey optional_of(std::string_view shape, FluidKey fluid_key)
 // -------------------------------------------------------------------------------------------------------
 
 // clang-format off
+// NOLINTBEGIN(bugprone-macro-parentheses): members, not expressions
 #define FIELD(member) [](auto& owner) -> auto& { return owner.member; }
 #define SHAPE_FIELD(Shape, member) [](auto& body) -> auto& { return std::get<Shape>(body.shape).member; }
+// NOLINTEND(bugprone-macro-parentheses)
 
 constexpr Range PLACE{-1e4, 1e4};  // m, from the origin
 constexpr Range SPEED{-1e5, 1e5};  // m/s

@@ -191,7 +191,8 @@ private:
             if (entry.kind != TomlEntryKind::Table) {
                 fail(entry, fmt::format("must be one table: [{}]", path));
             }
-        } else if (!(fluid && fluid->name.empty() && entry.kind != TomlEntryKind::Value)) {
+        } else if (const bool is_fluid_table = fluid && fluid->name.empty();
+                   !is_fluid_table || entry.kind == TomlEntryKind::Value) {
             check_is_key(entry, fluid);
         }
     }
@@ -213,7 +214,7 @@ private:
         }
     }
 
-    const TomlEntry* find(std::string_view path) const
+    [[nodiscard]] const TomlEntry* find(std::string_view path) const
     {
         const auto found = by_path_.find(path);
         return found == by_path_.end() ? nullptr : found->second;
@@ -254,7 +255,7 @@ private:
             return; // set before all others
         }
         if (!key.shape.empty() && key.shape != shape_name(body)) {
-            fail(entry, fmt::format("belongs to shape = \"{}\", but this fluid has shape = \"{}\" with the keys {}",
+            fail(entry, fmt::format(R"(belongs to shape = "{}", but this fluid has shape = "{}" with the keys {})",
                                     key.shape, shape_name(body), fmt::join(keys_of_shape(shape_name(body)), ", ")));
         }
         set_value(key, body, entry);

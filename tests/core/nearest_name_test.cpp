@@ -7,24 +7,24 @@
 namespace meltpoint {
 namespace {
 
-const std::vector<std::string> NAMES = {"viscosity", "velocity", "gravity", "min", "max"};
+const std::vector<std::string> names = {"viscosity", "velocity", "gravity", "min", "max"};
 
 TEST(NearestName, FindsTypos)
 {
-    EXPECT_EQ(nearest_name("viscosty", NAMES), "viscosity"); // a letter missing
-    EXPECT_EQ(nearest_name("vellocity", NAMES), "velocity"); // one too many
-    EXPECT_EQ(nearest_name("grafity", NAMES), "gravity");    // a wrong one
-    EXPECT_EQ(nearest_name("graivty", NAMES), "gravity");    // two swapped
-    EXPECT_EQ(nearest_name("mni", NAMES), "min");            // a swap is one edit, not two
-    EXPECT_EQ(nearest_name("mix", NAMES), "min");            // the first of equals
-    EXPECT_EQ(nearest_name("max", NAMES), "max");
+    EXPECT_EQ(nearest_name("viscosty", names), "viscosity"); // a letter missing
+    EXPECT_EQ(nearest_name("vellocity", names), "velocity"); // one too many
+    EXPECT_EQ(nearest_name("grafity", names), "gravity");    // a wrong one
+    EXPECT_EQ(nearest_name("graivty", names), "gravity");    // two swapped
+    EXPECT_EQ(nearest_name("mni", names), "min");            // a swap is one edit, not two
+    EXPECT_EQ(nearest_name("mix", names), "min");            // the first of equals
+    EXPECT_EQ(nearest_name("max", names), "max");
 }
 
 TEST(NearestName, DoesNotGuessWildly)
 {
-    EXPECT_EQ(nearest_name("frames", NAMES), std::nullopt);
-    EXPECT_EQ(nearest_name("", NAMES), std::nullopt);
-    EXPECT_EQ(nearest_name(std::string(1000, 'v'), NAMES), std::nullopt);
+    EXPECT_EQ(nearest_name("frames", names), std::nullopt);
+    EXPECT_EQ(nearest_name("", names), std::nullopt);
+    EXPECT_EQ(nearest_name(std::string(1000, 'v'), names), std::nullopt);
     EXPECT_EQ(nearest_name("max", {}), std::nullopt);
 }
 

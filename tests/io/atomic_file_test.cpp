@@ -43,6 +43,8 @@ public:
         const rlimit limit{bytes, old_limit_.rlim_max};
         setrlimit(RLIMIT_FSIZE, &limit);
     }
+    FullDisk(const FullDisk&) = delete;
+    FullDisk& operator=(const FullDisk&) = delete;
     ~FullDisk()
     {
         setrlimit(RLIMIT_FSIZE, &old_limit_);

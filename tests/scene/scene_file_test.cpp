@@ -263,7 +263,7 @@ TEST(SceneFile, RefusesToNestWithoutEnd)
     // As deep as tables go within the limits of both the parser and the line.
     std::string nested = "1";
     for (int i = 0; i < 120; ++i) {
-        nested = "{ " + key.substr(0, 127) + " = [\n" + nested + "\n] }";
+        nested = fmt::format("{{ {} = [\n{}\n] }}", key.substr(0, 127), nested);
     }
     EXPECT_NE(error_of("physics.gravity = " + nested).find("test.toml:1: key \"physics.gravity\" is a table"),
               std::string::npos);
@@ -430,7 +430,7 @@ Scene random_scene(std::uint64_t seed)
                     .wall_viscosity = scene.domain.wall_viscosity};
     scene.particles.spacing = 0.0123f;
     scene.time.dt = 1e-7f + 1e-8f * static_cast<float>(random.uniform());
-    scene.camera.target = *scene.camera.eye + glm::vec3(1.5f, 0.0f, 0.0f);
+    scene.camera.target = scene.camera.eye.value() + glm::vec3(1.5f, 0.0f, 0.0f);
     scene.camera.up = {0.1f, 0.9f, 0.0f};
     for (const std::string_view shape : fluid_keys().front().rule.choices) {
         FluidBody body;
@@ -526,19 +526,19 @@ TEST(SceneCheck, WorksOnScenesBuiltInCode)
 // --- the scenes of apps/scenes
 // ----------------------------------------------------------------------------------------
 
-const std::filesystem::path SCENES = std::filesystem::path(MELTPOINT_SOURCE_DIR) / "apps/scenes";
+const std::filesystem::path scenes_folder = std::filesystem::path(MELTPOINT_SOURCE_DIR) / "apps/scenes";
 
 TEST(BuiltinScenes, AreTheFilesOfTheFolder)
 {
     std::size_t files = 0;
-    for (const auto& entry : std::filesystem::directory_iterator(SCENES)) {
+    for (const auto& entry : std::filesystem::directory_iterator(scenes_folder)) {
         files += entry.path().extension() == ".toml" ? 1 : 0;
     }
     EXPECT_EQ(builtin_scene_names().size(), files);
     for (const std::string& name : builtin_scene_names()) {
         const Scene scene = builtin_scene(name);
         EXPECT_EQ(scene.name, name);
-        EXPECT_EQ(differences(scene, read_scene_file(SCENES / (name + ".toml"))), std::vector<std::string>{});
+        EXPECT_EQ(differences(scene, read_scene_file(scenes_folder / (name + ".toml"))), std::vector<std::string>{});
     }
     EXPECT_EQ(builtin_scene("drop", std::vector<std::string>{"time.frames=3"}).time.frames, 3u);
     EXPECT_EQ(complaint_of([] { builtin_scene("teapot_drip"); }),
@@ -550,7 +550,7 @@ TEST(BuiltinScenes, AreTheFilesOfTheFolder)
 TEST(SceneReference, IsUpToDate)
 {
     const std::string reference = scene_reference_markdown();
-    if (test::read_bytes(SCENES / "README.md") != reference) {
+    if (test::read_bytes(scenes_folder / "README.md") != reference) {
         const auto fresh = std::filesystem::current_path() / "scene_reference.md";
         std::ofstream(fresh, std::ios::binary) << reference;
         FAIL() << "apps/scenes/README.md is out of date: copy " << fresh << " over it";
@@ -560,7 +560,7 @@ TEST(SceneReference, IsUpToDate)
 TEST(SceneReference, DefaultsAreThoseOfTheStruct)
 {
     // The page as committed, read back row by row.
-    std::istringstream lines(test::read_bytes(SCENES / "README.md"));
+    std::istringstream lines(test::read_bytes(scenes_folder / "README.md"));
     int rows = 0;
     for (std::string line; std::getline(lines, line);) {
         const std::size_t name_end = line.find("` | `");
@@ -582,7 +582,7 @@ TEST(SceneReference, DefaultsAreThoseOfTheStruct)
 TEST(SceneFile, SurvivesMutations)
 {
     Random random(42);
-    const std::string original = test::read_bytes(SCENES / "drop.toml");
+    const std::string original = test::read_bytes(scenes_folder / "drop.toml");
     const std::string alphabet = "[]{}=\"'.,#\n\\ 0-e_a\xff\x80";
     int read = 0;
     for (int round = 0; round < 3000; ++round) {
