@@ -1,6 +1,7 @@
 #include "scene/scene_file.h"
 
 #include <algorithm>
+#include <cmath>
 #include <filesystem>
 #include <fstream>
 #include <sstream>
@@ -501,6 +502,53 @@ TEST(KeyTable, DefaultsAreAllowed)
         EXPECT_TRUE(accepts(key.rule, key.get(Scene{})) || key.rule.choices.size() == 1) << key.name;
         EXPECT_FALSE(key.description.empty()) << key.name;
     }
+}
+
+/// A value whose last number is `number`, the others the middle of the range.
+SceneValue value_with(const ValueRule& rule, double number)
+{
+    const SceneValue middle{0.5 * (rule.min + rule.max)};
+    const SceneValue::Array row{middle, middle, {number}};
+    switch (rule.kind) {
+    case ValueKind::Vector2:
+        return {SceneValue::Array{middle, {number}}};
+    case ValueKind::Vector3:
+        return {row};
+    case ValueKind::Matrix3:
+        return {SceneValue::Array{{row}, {row}, {row}}};
+    case ValueKind::Integer:
+        return {static_cast<std::int64_t>(number)};
+    case ValueKind::Text:
+        return {std::string(static_cast<std::size_t>(std::max(number, 0.0)), 'x')};
+    default:
+        return {number};
+    }
+}
+
+template <class Owner>
+void expect_limits(std::span<const Key<Owner>> keys)
+{
+    for (const Key<Owner>& key : keys) {
+        const ValueRule& rule = key.rule;
+        if (rule.kind == ValueKind::Boolean || rule.kind == ValueKind::Choice) {
+            continue;
+        }
+        const bool counts = rule.kind == ValueKind::Integer || rule.kind == ValueKind::Text;
+        const double step_down = counts ? 1.0 : std::max(1e-6, 1e-6 * std::abs(rule.min));
+        const double step_up = counts ? std::max(1.0, 1e-3 * rule.max) : 1e-6 * rule.max;
+        EXPECT_TRUE(accepts(rule, value_with(rule, rule.min))) << key.name;
+        EXPECT_TRUE(accepts(rule, value_with(rule, rule.max))) << key.name;
+        EXPECT_FALSE(accepts(rule, value_with(rule, rule.max + step_up))) << key.name;
+        if (rule.kind != ValueKind::Text || rule.min > 0.0) {
+            EXPECT_FALSE(accepts(rule, value_with(rule, rule.min - step_down))) << key.name;
+        }
+    }
+}
+
+TEST(KeyTable, LimitsAreInclusiveAndKept)
+{
+    expect_limits(scene_keys());
+    expect_limits(fluid_keys());
 }
 
 TEST(SceneCheck, WorksOnScenesBuiltInCode)
