@@ -25,8 +25,7 @@ struct Legend {
 /// About `wanted` round values (1, 2 or 5 times a power of ten apart) within the range, ascending.
 [[nodiscard]] std::vector<double> round_ticks(double low, double high, int wanted);
 
-/// Draws the legend into the lower left corner. Text is 7 pixels high times a scale that follows the picture's height;
-/// a picture too small for the bar is left as it is.
+/// Draws the legend into the lower left corner, larger in larger pictures. A picture too small for it is left as it is.
 void draw_legend(Image& image, const Legend& legend);
 
 } // namespace meltpoint::render
