@@ -74,7 +74,7 @@ std::vector<double> round_ticks(double low, double high, int wanted)
     }
     const double slack = 1e-9 * (last - first) / step; // ends that are round themselves belong to the ticks
     for (double i = std::ceil(first / step - slack); i <= std::floor(last / step + slack); ++i) {
-        ticks.push_back(i * step);
+        ticks.push_back(i * step + 0.0); // never "-0"
     }
     return ticks;
 }

@@ -1,6 +1,7 @@
 #include "render/legend.h"
 
 #include <algorithm>
+#include <cmath>
 #include <set>
 #include <string>
 
@@ -25,6 +26,7 @@ TEST(LegendTest, TicksAreRoundAndWithinTheRange)
     EXPECT_EQ(render::round_ticks(-3.0, 3.0, 3), (std::vector<double>{-2, 0, 2}));
     EXPECT_EQ(render::round_ticks(995.0, 1012.0, 4), (std::vector<double>{995, 1000, 1005, 1010}));
     EXPECT_EQ(render::round_ticks(10.0, 0.0, 5), render::round_ticks(0.0, 10.0, 5));
+    EXPECT_FALSE(std::signbit(render::round_ticks(0.0, 3.0, 4)[0]));
     EXPECT_TRUE(render::round_ticks(1.0, 1.0, 5).empty());
 }
 
