@@ -24,7 +24,7 @@ std::size_t crowded_words(std::uint32_t count)
     return sizeof(shared::CrowdedKeys) / sizeof(std::uint32_t) + most_crowded(count);
 }
 
-/// Throws unless the device launches so many workgroups at once: one for each crowded key. It does up to 16 million
+/// Throws unless the device launches so many workgroups at once: one for each crowded key. It does up to 33 million
 /// elements, and mostly far beyond.
 void require_workgroups(const gpu::Context& context, std::uint32_t workgroups)
 {
@@ -59,6 +59,7 @@ CountingSort::Scratch CountingSort::make_scratch(std::uint32_t count, std::uint3
     };
     return {.counts = words(key_count, "counting sort: counts"),
             .unordered = words(count, "counting sort: unordered"),
+            .slot_ids = words(count, "counting sort: ids"),
             .crowded = words(crowded_words(count), "counting sort: crowded keys"),
             .scan = words(scan_.scratch_words(key_count), "counting sort: scan")};
 }
@@ -73,6 +74,7 @@ void CountingSort::record(gpu::Commands& commands, const Input& input, const Out
     require_words(order, count);
     require_words(scratch.counts, key_count);
     require_words(scratch.unordered, count);
+    require_words(scratch.slot_ids, count);
     require_words(scratch.crowded, crowded_words(count));
     require_workgroups(*context_, most_crowded(count));
 
@@ -84,11 +86,11 @@ void CountingSort::record(gpu::Commands& commands, const Input& input, const Out
     commands.dispatch(count_, count, params, {read(keys), read_write(scratch.counts)});
     scan_.record(commands, scratch.counts, starts, key_count, scratch.scan);
     commands.dispatch(scatter_, count, params,
-                      {read(keys), read(starts), read_write(scratch.counts), write(scratch.unordered)});
-    commands.dispatch(
-        order_, count, params,
-        {read(keys), read(ids), read(starts), read(scratch.unordered), write(order), read_write(scratch.crowded)});
-
+                      {read(keys), read(ids), read(starts), read_write(scratch.counts), write(scratch.unordered),
+                       write(scratch.slot_ids)});
+    commands.dispatch(order_, count, params,
+                      {read(keys), read(starts), read(scratch.unordered), read(scratch.slot_ids), write(order),
+                       read_write(scratch.crowded)});
     commands.dispatch_indirect(
         crowded_, scratch.crowded, 0, gpu::NoPush{},
         {read(ids), read(starts), read_write(scratch.unordered), read_write(order), read(scratch.crowded)});

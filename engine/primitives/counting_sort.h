@@ -32,7 +32,8 @@ public:
     struct Scratch {
         gpu::Buffer counts;    ///< elements of each key
         gpu::Buffer unordered; ///< as order, but in any order within a key
-        gpu::Buffer crowded;   ///< number of crowded keys, then these keys
+        gpu::Buffer slot_ids;  ///< the ids of these elements
+        gpu::Buffer crowded;   ///< list of the crowded keys
         gpu::Buffer scan;      ///< of the prefix scan
     };
 

@@ -5,9 +5,9 @@
 #include "shared/counting_sort.h"
 
 layout(std430, binding = 0) readonly buffer Keys { uint keys[]; };
-layout(std430, binding = 1) readonly buffer Ids { uint ids[]; };
-layout(std430, binding = 2) readonly buffer Starts { uint starts[]; };
-layout(std430, binding = 3) readonly buffer Unordered { uint unordered[]; };
+layout(std430, binding = 1) readonly buffer Starts { uint starts[]; };
+layout(std430, binding = 2) readonly buffer Unordered { uint unordered[]; };
+layout(std430, binding = 3) readonly buffer SlotIds { uint slot_ids[]; };
 layout(std430, binding = 4) writeonly buffer Order { uint order[]; };
 layout(scalar, binding = 5) buffer Crowded
 {
@@ -33,10 +33,10 @@ void main()
         }
         return;
     }
-    const uint id = ids[element];
+    const uint id = slot_ids[slot];
     uint place = first;
     for (uint i = first; i < end; ++i) {
-        place += ids[unordered[i]] < id ? 1u : 0u;
+        place += slot_ids[i] < id ? 1u : 0u;
     }
     order[place] = element;
 }

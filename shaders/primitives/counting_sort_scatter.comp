@@ -6,9 +6,11 @@
 #include "shared/counting_sort.h"
 
 layout(std430, binding = 0) readonly buffer Keys { uint keys[]; };
-layout(std430, binding = 1) readonly buffer Starts { uint starts[]; };
-layout(std430, binding = 2) buffer Counts { uint counts[]; };
-layout(std430, binding = 3) writeonly buffer Unordered { uint unordered[]; };
+layout(std430, binding = 1) readonly buffer Ids { uint ids[]; };
+layout(std430, binding = 2) readonly buffer Starts { uint starts[]; };
+layout(std430, binding = 3) buffer Counts { uint counts[]; };
+layout(std430, binding = 4) writeonly buffer Unordered { uint unordered[]; };
+layout(std430, binding = 5) writeonly buffer SlotIds { uint slot_ids[]; };
 
 layout(push_constant, scalar) uniform Push { CountingSortParams params; };
 
@@ -17,6 +19,8 @@ void main()
     const uint i = invocation_index();
     if (i < params.count && keys[i] < params.key_count) {
         const uint left = atomicAdd(counts[keys[i]], ~0u); // adds -1
-        unordered[starts[keys[i]] + left - 1u] = i;
+        const uint slot = starts[keys[i]] + left - 1u;
+        unordered[slot] = i;
+        slot_ids[slot] = ids[i];
     }
 }

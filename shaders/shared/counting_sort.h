@@ -7,7 +7,7 @@ SHARED_BEGIN
 
 // Up to this many elements of one key are ordered by counting, which costs their number squared; more go to a radix
 // sort.
-SHARED_CONSTANT uint CROWDED_KEY = 256u;
+SHARED_CONSTANT uint CROWDED_KEY = 512u;
 
 struct CountingSortParams {
     uint count;     // elements
