@@ -71,11 +71,13 @@ void CountingSort::record(gpu::Commands& commands, const Input& input, const Out
     const auto& [starts, order] = output;
     require_words(keys, count);
     require_words(ids, count);
+    require_words(starts, std::size_t{key_count} + 1);
     require_words(order, count);
     require_words(scratch.counts, key_count);
     require_words(scratch.unordered, count);
     require_words(scratch.slot_ids, count);
     require_words(scratch.crowded, crowded_words(count));
+    require_words(scratch.scan, scan_.scratch_words(key_count));
     require_workgroups(*context_, most_crowded(count));
 
     const shared::CountingSortParams params{.count = count, .key_count = key_count};

@@ -42,7 +42,8 @@ public:
     /// Working memory for sorts of up to `count` elements and `key_count` keys.
     [[nodiscard]] Scratch make_scratch(std::uint32_t count, std::uint32_t key_count) const;
 
-    /// Records the passes. All buffers differ from each other. Throws std::logic_error when one is too small.
+    /// Records the passes. All buffers differ from each other. Throws std::logic_error when one is too small, having
+    /// recorded nothing.
     void record(gpu::Commands& commands, const Input& input, const Output& output, const Scratch& scratch) const;
 
 private:

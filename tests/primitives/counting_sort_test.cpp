@@ -275,6 +275,17 @@ TEST_F(CountingSortTest, CrowdedKeysWithIdsOfAnyNumberOfDigits)
     }
 }
 
+// Digits in which the ids do not differ are skipped: one element is enough to need them.
+TEST_F(CountingSortTest, ACrowdedKeyInWhichOneIdAloneHasAHighBit)
+{
+    constexpr std::uint32_t count = 8 * crowded;
+    for (const std::uint32_t place : {0u, 100u, 1001u, 2222u, count - 1}) {
+        Words ids = shuffled_ids(count, place);
+        ids[place] |= 0x40000000u;
+        expect_sorted(Words(count, 0), ids, 1);
+    }
+}
+
 TEST_F(CountingSortTest, SortsRecordedTogetherMayShareTheirScratch)
 {
     const SortCase first(random_keys(60'000, 4000, 14), shuffled_ids(60'000, 15), 4000);
@@ -326,14 +337,16 @@ TEST_F(CountingSortTest, ResultsAreTheSameFromRunToRun)
 
 TEST_F(CountingSortTest, ABufferTooSmallIsRefused)
 {
-    const SortCase large(Words(5000, 0), shuffled_ids(5000, 25), 300);
+    constexpr std::uint32_t count = 8 * crowded;
+    constexpr std::uint32_t key_count = 100'000;
+    const SortCase large(Words(count, 0), shuffled_ids(count, 25), key_count);
     const gpu::Buffer small = gpu::make_buffer<std::uint32_t>(context(), 4, "small");
     const auto& sort = counting_sort();
     gpu::Commands commands(context());
     commands.begin();
     const auto expect_refused = [&](const gpu::Buffer& keys, const gpu::Buffer& ids, const gpu::Buffer& starts,
                                     const gpu::Buffer& order, const primitives::CountingSort::Scratch& scratch) {
-        EXPECT_THROW(sort.record(commands, {.keys = keys, .ids = ids, .count = 5000, .key_count = 300},
+        EXPECT_THROW(sort.record(commands, {.keys = keys, .ids = ids, .count = count, .key_count = key_count},
                                  {.starts = starts, .order = order}, scratch),
                      std::logic_error);
     };
@@ -341,8 +354,13 @@ TEST_F(CountingSortTest, ABufferTooSmallIsRefused)
     expect_refused(large.keys, small, large.starts, large.order, large.scratch);
     expect_refused(large.keys, large.ids, small, large.order, large.scratch);
     expect_refused(large.keys, large.ids, large.starts, small, large.scratch);
-    expect_refused(large.keys, large.ids, large.starts, large.order, sort.make_scratch(2000, 300));
-    expect_refused(large.keys, large.ids, large.starts, large.order, sort.make_scratch(5000, 200));
+    using Scratch = primitives::CountingSort::Scratch;
+    for (gpu::Buffer Scratch::*member :
+         {&Scratch::counts, &Scratch::unordered, &Scratch::slot_ids, &Scratch::crowded, &Scratch::scan}) {
+        Scratch scratch = sort.make_scratch(count, key_count);
+        scratch.*member = gpu::make_buffer<std::uint32_t>(context(), 4, "small");
+        expect_refused(large.keys, large.ids, large.starts, large.order, scratch);
+    }
     commands.submit();
     commands.wait();
 }
