@@ -51,12 +51,22 @@ const std::vector<NamedState>& states()
          [] {
              return random_state(600, glm::vec3(0.51f), glm::vec3(0.51f + 0.4f * d), 3);
          }},
-        {"Coincident",
+        {"Coincident", // at rest, or the drift would part them
          [] {
              ParticleSet set = lattice_state({5, 5, 5}, glm::vec3(0.4f));
              const std::size_t count = set.size();
              for (std::size_t i = 0; i < count; ++i) {
-                 add_particle(set, set.position[i], glm::vec3(0.1f));
+                 add_particle(set, set.position[i]);
+             }
+             return set;
+         }},
+        {"NearlyCoincident", // likewise; less, and a little more, than COINCIDENT_RATIO apart
+         [] {
+             ParticleSet set;
+             for (const float apart : {6e-8f, 1e-6f}) {
+                 const glm::vec3 x(0.51f + 1e3f * apart, 0.52f, 0.53f);
+                 add_particle(set, x);
+                 add_particle(set, x + glm::vec3(0.0f, apart, 0.0f));
              }
              return set;
          }},
