@@ -17,18 +17,259 @@ mutation() {
     descriptions+=("$1") files+=("$2") originals+=("$3") replacements+=("$4") programs+=("$5") filters+=("$6")
 }
 
-# --- the mutations ------------------------------------------------------------------------------------------------------
+# --- the mutations: prefix scan and counting sort -----------------------------------------------------------------------
 
-mutation "barriers: none before a read of what was written" \
+mutation "scan: inclusive instead of exclusive" \
+    shaders/primitives/prefix_scan_apply.comp \
+    'starts[i] = running;
+        running += counts[i];' \
+    'running += counts[i];
+        starts[i] = running;' \
+    conformance_tests '*PrefixScanElementsTest.EqualsTheStandardLibrarysForEveryKindOfData*'
+mutation "scan: rounds of block sums do not carry on" \
+    shaders/primitives/prefix_scan_blocks.comp \
+    'carry += total' \
+    'carry = total' \
+    conformance_tests '*PrefixScanElementsTest.EqualsTheStandardLibrarysForEverySize*'
+mutation "scan: an invocation counts itself among those before it" \
+    shaders/include/workgroup_scan.glsl \
+    'i < gl_LocalInvocationIndex' \
+    'i <= gl_LocalInvocationIndex' \
+    conformance_tests '*PrefixScanElementsTest.EqualsTheStandardLibrarysForEveryKindOfData*'
+mutation "scan: no barrier between writing and reading the workgroup's values" \
+    shaders/include/workgroup_scan.glsl \
+    'workgroup_values[gl_LocalInvocationIndex] = value;
+    barrier();' \
+    'workgroup_values[gl_LocalInvocationIndex] = value;' \
+    conformance_tests '*PrefixScanElementsTest*'
+mutation "sort: an id counts as smaller than itself" \
+    shaders/primitives/counting_sort_order.comp \
+    '< id ?' \
+    '<= id ?' \
+    conformance_tests '*CountingSortSizeTest.RandomKeys/*'
+mutation "sort: elements of a key stay in the order of the atomics" \
+    shaders/primitives/counting_sort_order.comp \
+    'order[place] = element' \
+    'order[slot] = element' \
+    conformance_tests '*CountingSortSizeTest.RandomKeys/*'
+mutation "sort: slots of a key begin one too high" \
+    shaders/primitives/counting_sort_scatter.comp \
+    '+ left - 1u' \
+    '+ left' \
+    conformance_tests '*CountingSortSizeTest.RandomKeys/*'
+mutation "sort: crowded keys, the lowest bit of each digit is ignored" \
+    shaders/primitives/counting_sort_crowded.comp \
+    '(ids[element] >> shift) & (DIGITS - 1u)' \
+    '(ids[element] >> shift) & (DIGITS - 2u)' \
+    conformance_tests 'CountingSortTest.CrowdedKeysWithIdsOfAnyNumberOfDigits'
+mutation "sort: crowded keys, digits are summed up before all are counted" \
+    shaders/primitives/counting_sort_crowded.comp \
+    'barrier();
+
+    // Scan' \
+    '// Scan' \
+    conformance_tests 'CountingSortTest.*Crowded*'
+
+# --- barriers, that software devices do not need: synchronization validation must see them missing ----------------------
+
+mutation "barrier: none between a write and a read" \
     engine/gpu/commands.cpp \
     'written && !visible' \
     'false && !visible' \
-    conformance_tests 'ContextTest.SynchronizationValidationSeesASuppressedBarrier'
-mutation "kernel: paper viscosity 2 % too strong" \
-    engine/reference/forces.cpp \
-    'static_cast<double>(settings.params.viscosity) * volume' \
-    '1.02 * static_cast<double>(settings.params.viscosity) * volume' \
-    unit_tests '*ReferenceForces*'
+    conformance_tests 'BarrierTest.*'
+mutation "barrier: none between a read and a write" \
+    engine/gpu/commands.cpp \
+    'written || state.read_stages != 0' \
+    'written' \
+    conformance_tests 'BarrierTest.*'
+mutation "barrier: none between a write and a write" \
+    engine/gpu/commands.cpp \
+    'written || state.read_stages != 0' \
+    'state.read_stages != 0' \
+    conformance_tests 'BarrierTest.*'
+mutation "barrier: waits, but does not make the writes available" \
+    engine/gpu/commands.cpp \
+    'pending_.srcAccessMask |= state.write_access;' \
+    '' \
+    conformance_tests 'BarrierTest.*'
+mutation "barrier: what one stage may read, all are taken to" \
+    engine/gpu/commands.cpp \
+    '(state.visible_stages & stages) == stages && (state.visible_access & access) == access' \
+    'state.visible_stages != 0' \
+    conformance_tests 'BarrierTest.*'
+mutation "barrier: the workgroup counts of an indirect dispatch are not waited for" \
+    engine/gpu/commands.cpp \
+    'use(arguments, VK_PIPELINE_STAGE_2_DRAW_INDIRECT_BIT, VK_ACCESS_2_INDIRECT_COMMAND_READ_BIT, false);' \
+    '' \
+    conformance_tests 'CountingSortTest.*'
+mutation "barrier: a pass declares that it only reads what it writes" \
+    engine/sim/wcsph.cpp \
+    'read(particles.acceleration), read_write(particles.velocity)' \
+    'read(particles.acceleration), read(particles.velocity)' \
+    conformance_tests 'Steps.OneStepIsTheTwins'
+
+# --- kernels ------------------------------------------------------------------------------------------------------------
+
+mutation "kernels in C++: poly6 to the second power" \
+    engine/particles/sph_kernel.cpp \
+    'return u * u * u;' \
+    'return u * u;' \
+    unit_tests '*SphKernel.EveryKernelHasUnitMoment*'
+mutation "kernels in C++: factor of the Wendland gradient 2 % off" \
+    engine/particles/sph_kernel.cpp \
+    '.gradient = 210.0' \
+    '.gradient = 206.0' \
+    unit_tests '*SphKernel*'
+mutation "kernels in GLSL: constant of the Wendland kernel" \
+    shaders/include/sph_kernel.glsl \
+    '1.0 + 4.0 * q' \
+    '1.0 + 3.9 * q' \
+    conformance_tests '*PassConformance.AllPasses/RandomWendland'
+mutation "kernels in GLSL: spiky gradient one power too low" \
+    shaders/include/sph_kernel.glsl \
+    'u * u * inverse_r' \
+    'u * inverse_r' \
+    conformance_tests '*PassConformance.AllPasses/RandomPaper'
+mutation "kernels in GLSL: constant of the color Laplacian" \
+    shaders/include/sph_kernel.glsl \
+    '3.0 - 7.0 * q2' \
+    '3.0 - 6.9 * q2' \
+    conformance_tests '*PassConformance.EachForceAlone/RandomPaper'
+mutation "kernels in GLSL: coincident particles push each other" \
+    shaders/include/sph_kernel.glsl \
+    'vec2(r2 > size.coincident2 ? u * u * inverse_r : 0.0, u)' \
+    'vec2(u * u * inverse_r, u)' \
+    conformance_tests '*PassConformance.EachForceAlone/NearlyCoincident*'
+
+# --- neighbors ----------------------------------------------------------------------------------------------------------
+
+mutation "neighbors: rows end one cell too early" \
+    shaders/include/neighbor_walk.glsl \
+    'walk.last + offset + reach + 1' \
+    'walk.last + offset + reach' \
+    conformance_tests '*PassConformance.AllPasses/Random*'
+mutation "neighbors: candidates in overlapping rows of a tile count twice" \
+    shaders/include/neighbor_walk.glsl \
+    'walk.visited_end = end' \
+    'walk.visited_end = 0u' \
+    conformance_tests '*PassConformance.AllPasses/Splash*'
+mutation "neighbors: the last row of cells is not searched" \
+    shaders/include/neighbor_walk.glsl \
+    'row < 9' \
+    'row < 8' \
+    conformance_tests '*PassConformance.AllPasses/Random*'
+mutation "neighbors: velocities are not moved into the sorted order" \
+    shaders/sim/reorder.comp \
+    'sorted_velocity[slot] = velocity[source]' \
+    'sorted_velocity[slot] = velocity[slot]' \
+    conformance_tests '*PassConformance.AllPasses/Random*'
+
+# --- density, state equation, forces, walls, integrator -----------------------------------------------------------------
+
+mutation "density: in terms of the rest density's mass instead of the particle's" \
+    shaders/sim/density.comp \
+    'position[i].w * params.density_scale' \
+    'position[first].w * params.density_scale' \
+    conformance_tests 'MaterialConformance.TwoRestDensities'
+mutation "state equation: Tait without its exponent in the stiffness" \
+    shaders/sim/density.comp \
+    'c2 * rho0 / params.gamma' \
+    'c2 * rho0' \
+    conformance_tests '*PassConformance.AllPasses/Random*'
+mutation "state equation: never clamped" \
+    shaders/sim/density.comp \
+    'params.clamp_pressure != 0u ? max(p, 0.0) : p' \
+    'p' \
+    conformance_tests '*PassConformance.AllPasses/Splash*'
+mutation "forces: pressure attracts" \
+    shaders/sim/forces.comp \
+    'force[k] += (pressure_term[k]' \
+    'force[k] -= (pressure_term[k]' \
+    conformance_tests '*PassConformance.EachForceAlone/Two*'
+mutation "forces: pressure not symmetric" \
+    shaders/sim/forces.comp \
+    'pressure_term[k] + pressure_term_j' \
+    '2.0 * pressure_term_j' \
+    conformance_tests 'Steps.MomentumIsConserved'
+mutation "forces: viscosity speeds up" \
+    shaders/sim/forces.comp \
+    'vj - v[k]' \
+    'v[k] - vj' \
+    conformance_tests '*PassConformance.EachForceAlone/Two*'
+mutation "forces: surface tension points outward" \
+    shaders/sim/forces.comp \
+    'return -params.surface_tension' \
+    'return params.surface_tension' \
+    conformance_tests '*PassConformance.EachForceAlone/Random*'
+mutation "forces: gravity left out" \
+    shaders/sim/forces.comp \
+    'a = params.gravity + force[k]' \
+    'a = force[k]' \
+    conformance_tests 'Steps.FreeFallIsExact'
+mutation "walls: images do not move as mirrors do" \
+    shaders/sim/forces.comp \
+    'vj = signs * velocity[j].xyz' \
+    'vj = velocity[j].xyz' \
+    conformance_tests 'Steps.OneStepIsTheTwins'
+mutation "walls: half as far to the image" \
+    shaders/include/walls.glsl \
+    '2.0 * walls.plane[axis] - x[axis]' \
+    '1.5 * walls.plane[axis] - 0.5 * x[axis]' \
+    conformance_tests '*PassConformance.AllPasses/LatticeOnTheFloor*'
+mutation "walls: the contact spring's damping pushes" \
+    shaders/sim/forces.comp \
+    'spring - params.contact_damping * speed' \
+    'spring + params.contact_damping * speed' \
+    conformance_tests '*PassConformance.AllPasses/InTheCorners*'
+mutation "walls: no friction" \
+    shaders/sim/forces.comp \
+    'a -= params.wall_viscosity' \
+    'a -= 0.0 * params.wall_viscosity' \
+    conformance_tests '*PassConformance.EachForceAlone/InTheCorners*'
+mutation "integrator: a whole kick before the drift" \
+    shaders/sim/kick_drift.comp \
+    '0.5 * params.dt' \
+    'params.dt' \
+    conformance_tests 'Steps.FreeFallIsExact'
+mutation "integrator: no second kick" \
+    engine/sim/wcsph.cpp \
+    '    record_kick(commands, kernels, params, particles);
+}' \
+    '}' \
+    conformance_tests 'Steps.FreeFallIsExact'
+mutation "faults: the largest id is reported" \
+    shaders/sim/kick_drift.comp \
+    'atomicMin(status.offender' \
+    'atomicMax(status.offender' \
+    conformance_tests 'Steps.ANotANumberIsReportedWithTheSmallestId'
+
+# --- sampling and drawing -----------------------------------------------------------------------------------------------
+
+mutation "surface samples: the half beyond the triangle is not folded back" \
+    engine/geometry/surface_sampling.cpp \
+    'u + v > 1.0' \
+    'u + v > 2.0' \
+    unit_tests 'SurfaceSampling.PointsAreUniformOnTheirTriangles'
+mutation "splats: discs are projected along the view axis instead of intersected" \
+    shaders/include/splat.glsl \
+    'float t = dot(center - ray.origin, normal) / dot(ray.direction, normal);' \
+    'float t = (center - ray.origin).z / ray.direction.z;' \
+    image_tests 'SplatTest.*Discs*'
+mutation "splats: the bound of a disc is its radius over its distance" \
+    shaders/include/splat.glsl \
+    'float determinant = d * d - r2 * (1.0 - m * m);' \
+    'float determinant = d * d;' \
+    image_tests 'SplatTest.DiscsMatchTheRayCast*'
+mutation "splats: a sphere is drawn at the depth of its center" \
+    shaders/include/splat.glsl \
+    '(along - half_chord) * ray.direction' \
+    'along * ray.direction' \
+    image_tests 'SplatTest.SpheresMatchTheRayCast*'
+mutation "drawing: magenta above the rest density instead of below" \
+    shaders/render/resolve.frag \
+    'density[particle] < params.rest_density[material]' \
+    'density[particle] > params.rest_density[material]' \
+    image_tests 'FrameTest.DensityBelowTheRestDensityIsMagenta'
 
 mutation "scan: block sums without those of earlier rounds" \
     shaders/primitives/prefix_scan_blocks.comp \
