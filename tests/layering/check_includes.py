@@ -99,7 +99,7 @@ def target_of(header):
     first, _, rest = header.partition("/")
     if not rest:
         return None
-    for parent in ("engine", "shaders"):
+    for parent in ("engine", "shaders", "apps"):
         if f"{parent}/{first}" in STANDS_ON:
             return f"{parent}/{first}"
     return None
@@ -183,6 +183,8 @@ FORBIDDEN = [
     ("engine/run/runner.cpp", '#include "reference/density.h"'),
     ("engine/run/runner.cpp", '#include "spirv/sim/density.comp.h"'),
     ("apps/meltpoint/render.cpp", '#include "reference/density.h"'),
+    ("apps/meltpoint/render.cpp", '#include "conformance/pass_comparison.h"'),
+    ("engine/run/runner.cpp", '#include "conformance/pass_comparison.h"'),
     ("apps/meltpoint/compare.cpp", "#include <volk.h>"),
     ("engine/scene/scene.h", "#include <vulkan/vulkan.h>"),
     ("engine/scene/scene.h", "#include <toml++/toml.h>"),
@@ -203,7 +205,7 @@ ALLOWED = [
     ("engine/geometry/point_cloud.h", '#include <vector>\n#include <glm/glm.hpp>\n#include "core/aabb.h"'),
     ("engine/sim/density.cpp", '#include "sim/density.h"\n#include "spirv/sim/density.comp.h"\n#include "core/error.h"'),
     ("engine/run/runner.cpp", '#include "scene/scene.h"\n#include "primitives/prefix_scan.h"\n#include <volk.h>'),
-    ("apps/meltpoint/compare.cpp", '#include "reference/density.h"\n#include <CLI/CLI.hpp>'),
+    ("apps/meltpoint/compare.cpp", '#include "conformance/pass_comparison.h"\n#include <CLI/CLI.hpp>'),
     ("apps/meltpoint/main.cpp", '#include "options.h"\n#include <unistd.h>\n#include <sys/stat.h>'),
     ("tests/gpu/kernel_test.cpp", '#include "gpu/fixture.h"\n#include "reference/density.h"\n#include <gtest/gtest.h>'),
     ("shaders/sim/density.comp", '#include "shared/sph_params.h"\n#include "include/kernels.glsl"'),
