@@ -69,6 +69,37 @@ mutation "sort: crowded keys, digits are summed up before all are counted" \
     // Scan' \
     '// Scan' \
     conformance_tests 'CountingSortTest.*Crowded*'
+mutation "scan: no barrier between reading and overwriting" \
+    shaders/include/workgroup_scan.glsl \
+    'barrier(); // before the next call' \
+    '// before the next call' \
+    conformance_tests '*PrefixScan*'
+mutation "dispatch: the second axis of workgroups is ignored" \
+    shaders/include/invocation.glsl \
+    'gl_WorkGroupID.y * gl_NumWorkGroups.x + gl_WorkGroupID.x' \
+    'gl_WorkGroupID.x' \
+    conformance_tests 'PrefixScanTest.MoreWorkgroups*'
+mutation "sort: a key is crowded one element too early" \
+    shaders/primitives/counting_sort_order.comp \
+    '> CROWDED_KEY' \
+    '>= CROWDED_KEY' \
+    conformance_tests 'CountingSortTest.*Crowded*'
+mutation "sort: the highest digit is not sorted" \
+    shaders/primitives/counting_sort_crowded.comp \
+    'shift < 32u' \
+    'shift < 28u' \
+    conformance_tests 'CountingSortTest.*'
+mutation "sort: no barrier between two digits" \
+    shaders/primitives/counting_sort_crowded.comp \
+    'memoryBarrierBuffer();
+    barrier();' \
+    '' \
+    conformance_tests 'CountingSortTest.*'
+mutation "sort: keys out of range are counted" \
+    shaders/primitives/counting_sort_count.comp \
+    ' && keys[i] < params.key_count' \
+    '' \
+    conformance_tests 'CountingSortTest.ElementsBeyond*'
 
 # --- barriers, that software devices do not need: synchronization validation must see them missing ----------------------
 
@@ -270,48 +301,6 @@ mutation "drawing: magenta above the rest density instead of below" \
     'density[particle] < params.rest_density[material]' \
     'density[particle] > params.rest_density[material]' \
     image_tests 'FrameTest.DensityBelowTheRestDensityIsMagenta'
-
-mutation "scan: block sums without those of earlier rounds" \
-    shaders/primitives/prefix_scan_blocks.comp \
-    'carry += total' \
-    'carry = total' \
-    conformance_tests '*PrefixScan*'
-mutation "scan: no barrier between reading and overwriting" \
-    shaders/include/workgroup_scan.glsl \
-    'barrier(); // before the next call' \
-    '// before the next call' \
-    conformance_tests '*PrefixScan*'
-mutation "dispatch: the second axis of workgroups is ignored" \
-    shaders/include/invocation.glsl \
-    'gl_WorkGroupID.y * gl_NumWorkGroups.x + gl_WorkGroupID.x' \
-    'gl_WorkGroupID.x' \
-    conformance_tests 'PrefixScanTest.MoreWorkgroups*'
-mutation "sort: order within a key left to the atomics" \
-    shaders/primitives/counting_sort_order.comp \
-    'order[place]' \
-    'order[slot]' \
-    conformance_tests '*CountingSort*'
-mutation "sort: a key is crowded one element too early" \
-    shaders/primitives/counting_sort_order.comp \
-    '> CROWDED_KEY' \
-    '>= CROWDED_KEY' \
-    conformance_tests 'CountingSortTest.*Crowded*'
-mutation "sort: the highest digit is not sorted" \
-    shaders/primitives/counting_sort_crowded.comp \
-    'shift < 32u' \
-    'shift < 28u' \
-    conformance_tests 'CountingSortTest.*'
-mutation "sort: no barrier between two digits" \
-    shaders/primitives/counting_sort_crowded.comp \
-    'memoryBarrierBuffer();
-    barrier();' \
-    '' \
-    conformance_tests 'CountingSortTest.*'
-mutation "sort: keys out of range are counted" \
-    shaders/primitives/counting_sort_count.comp \
-    ' && keys[i] < params.key_count' \
-    '' \
-    conformance_tests 'CountingSortTest.ElementsBeyond*'
 
 # --- the machinery ------------------------------------------------------------------------------------------------------
 
