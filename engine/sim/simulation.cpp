@@ -12,8 +12,9 @@ namespace meltpoint::sim {
 
 namespace {
 
-// Enough to hide the cost of a submission, few enough to answer Ctrl-C and to keep a submission well under a second.
-constexpr std::uint32_t steps_per_submission = 16;
+// Enough steps to hide the cost of a submission, few enough to keep it well under a second on a slow device.
+constexpr std::uint32_t max_steps_per_submission = 16;
+constexpr std::uint32_t particle_steps_per_submission = 1'000'000;
 
 constexpr std::uint32_t scopes_per_step = 8;
 
@@ -56,10 +57,10 @@ shared::SphParams complete_params(shared::SphParams params, std::size_t particle
     return params;
 }
 
-std::uint64_t Simulation::particle_limit(const gpu::Context& context)
+std::uint64_t Simulation::particle_limit(const gpu::DeviceInfo& device)
 {
-    const std::uint64_t by_binding = context.limits().maxStorageBufferRange / sizeof(glm::vec4);
-    const std::uint64_t by_memory = context.info().memory_bytes / bytes_per_particle;
+    const std::uint64_t by_binding = device.limits.maxStorageBufferRange / sizeof(glm::vec4);
+    const std::uint64_t by_memory = device.memory_bytes / bytes_per_particle;
     constexpr std::uint64_t by_id = 1u << 30; // an id shares a word with its fault (pack_offender)
     return std::min({by_binding, by_memory, by_id});
 }
@@ -85,7 +86,8 @@ Simulation::Simulation(const gpu::Context& context, const ParticleSet& particles
 void Simulation::advance(std::uint32_t steps)
 {
     while (steps > 0) {
-        const std::uint32_t batch = std::min(steps, steps_per_submission);
+        const std::uint32_t batch = std::min(
+            steps, std::clamp(particle_steps_per_submission / params_.particle_count, 1u, max_steps_per_submission));
         commands_->begin();
         for (std::uint32_t i = 0; i < batch; ++i) {
             record_step(*commands_, kernels_, params_buffer_, particles_, grid_, status_,
@@ -137,7 +139,7 @@ NeighborStatistics Simulation::neighbor_statistics()
 
 void Simulation::enable_timings()
 {
-    commands_ = std::make_unique<gpu::Commands>(*context_, steps_per_submission * scopes_per_step);
+    commands_ = std::make_unique<gpu::Commands>(*context_, max_steps_per_submission * scopes_per_step);
 }
 
 } // namespace meltpoint::sim

@@ -53,8 +53,12 @@ public:
     /// Device times of the passes of the last advance(), summed over its last submission.
     [[nodiscard]] std::vector<gpu::Timing> timings() const { return commands_->timings(); }
 
-    /// The most particles that the device's memory and binding limits allow with this domain.
-    [[nodiscard]] static std::uint64_t particle_limit(const gpu::Context& context);
+    /// The most particles that the device's memory and binding limits allow.
+    [[nodiscard]] static std::uint64_t particle_limit(const gpu::DeviceInfo& device);
+    [[nodiscard]] static std::uint64_t particle_limit(const gpu::Context& context)
+    {
+        return particle_limit(context.info());
+    }
 
 private:
     void check_status();

@@ -1,0 +1,39 @@
+#include "interrupt.h"
+
+#include <csignal>
+
+namespace meltpoint::program {
+
+namespace {
+
+// A signal handler can reach nothing but a global; lock-free atomics are safe in it.
+std::atomic<bool> interrupted{false};
+static_assert(std::atomic<bool>::is_always_lock_free);
+
+void on_signal(int signal_number)
+{
+    interrupted = true;
+    std::signal(signal_number, SIG_DFL);
+}
+
+} // namespace
+
+InterruptGuard::InterruptGuard()
+{
+    interrupted = false;
+    std::signal(SIGINT, on_signal);
+    std::signal(SIGTERM, on_signal);
+}
+
+InterruptGuard::~InterruptGuard()
+{
+    std::signal(SIGINT, SIG_DFL);
+    std::signal(SIGTERM, SIG_DFL);
+}
+
+const std::atomic<bool>& InterruptGuard::flag() const
+{
+    return interrupted;
+}
+
+} // namespace meltpoint::program

@@ -1,0 +1,52 @@
+#include "scene_options.h"
+
+#include "core/error.h"
+#include "core/log.h"
+#include "run/mesh_scene.h"
+
+namespace meltpoint::program {
+
+void add_scene_options(CLI::App& command, SceneOptions& options)
+{
+    command
+        .add_option("SCENE", options.scene,
+                    "A scene file (.toml), the name of a built-in scene, or a mesh (a file or builtin:NAME), which is "
+                    "filled with fluid and dropped")
+        ->required();
+    command
+        .add_option("--set", options.overrides,
+                    "Changes a key of the scene, KEY=VALUE: dotted keys, TOML values (physics.viscosity=0.1, "
+                    "domain.max=[1,2,1], fluid.0.velocity=[0,1,0]); may be repeated")
+        ->type_name("KEY=VALUE")
+        ->allow_extra_args(false);
+    command
+        .add_option("--device", options.device,
+                    "Vulkan device, by index or part of its name (see meltpoint info) [best usable]")
+        ->type_name("NAME|INDEX");
+    command.add_flag("--validate", options.validate,
+                     "Vulkan validation and synchronization validation; any warning or error ends in exit code 1");
+}
+
+Scene load_scene(const SceneOptions& options)
+{
+    return find_scene(options.scene, options.overrides);
+}
+
+gpu::ContextOptions context_options(const SceneOptions& options)
+{
+    return {.device = options.device, .validation = options.validate};
+}
+
+void require_silent_validation(const gpu::Context& context)
+{
+    const std::vector<std::string> messages = context.validation_messages();
+    if (messages.empty()) {
+        return;
+    }
+    for (const std::string& message : messages) {
+        log_error("Vulkan validation: " + message);
+    }
+    throw runtime_error("Vulkan validation reported {} message{}", messages.size(), messages.size() == 1 ? "" : "s");
+}
+
+} // namespace meltpoint::program

@@ -1,0 +1,29 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include <CLI/CLI.hpp>
+
+#include "gpu/context.h"
+#include "scene/scene.h"
+
+namespace meltpoint::program {
+
+/// Flags of every subcommand that works on a scene on a device.
+struct SceneOptions {
+    std::string scene;
+    std::vector<std::string> overrides;
+    std::string device;
+    bool validate = false;
+};
+
+void add_scene_options(CLI::App& command, SceneOptions& options);
+
+[[nodiscard]] Scene load_scene(const SceneOptions& options);
+[[nodiscard]] gpu::ContextOptions context_options(const SceneOptions& options);
+
+/// Throws Runtime with the first message when the validation layers had anything to say.
+void require_silent_validation(const gpu::Context& context);
+
+} // namespace meltpoint::program

@@ -1,0 +1,125 @@
+#include "run/fluid_settings.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include <fmt/format.h>
+
+#include "core/error.h"
+#include "particles/sph_kernel.h"
+#include "scene/materials.h"
+
+namespace meltpoint {
+
+namespace {
+
+constexpr double sound_per_speed = 10.0; // density error about 1 %
+
+double support_radius(const Scene& scene)
+{
+    return static_cast<double>(scene.particles.spacing) * static_cast<double>(scene.particles.support_ratio);
+}
+
+/// How far x can fall along gravity before it meets the domain's border, times |g|.
+double fall_work(const Scene& scene, const glm::dvec3& x)
+{
+    const glm::dvec3 g(scene.physics.gravity);
+    double work = 0.0;
+    for (int axis = 0; axis < 3; ++axis) {
+        const double end = static_cast<double>(g[axis] < 0.0 ? scene.domain.min[axis] : scene.domain.max[axis]);
+        work += std::max(g[axis] * (end - x[axis]), 0.0);
+    }
+    return work;
+}
+
+float frame_steps_dt(double bound, double frame_rate)
+{
+    const double steps = std::ceil(1.0 / (frame_rate * bound));
+    return static_cast<float>(1.0 / (frame_rate * std::max(steps, 1.0)));
+}
+
+} // namespace
+
+double expected_speed(const Scene& scene, const ParticleSet& particles)
+{
+    double fastest = 0.0;
+    for (std::size_t i = 0; i < particles.size(); ++i) {
+        const double start = glm::length(glm::dvec3(particles.velocity[i]));
+        const double fall = std::sqrt(2.0 * fall_work(scene, glm::dvec3(particles.position[i])));
+        fastest = std::max(fastest, start + fall);
+    }
+    constexpr double nothing_known = 1.0;
+    return fastest > 0.0 ? fastest : nothing_known;
+}
+
+TimeStepBounds time_step_bounds(const Scene& scene, double speed_of_sound)
+{
+    const double support = support_radius(scene);
+    double lightest = std::numeric_limits<double>::infinity();
+    for (const FluidBody& body : scene.fluids) {
+        lightest = std::min(lightest, static_cast<double>(body.rest_density));
+    }
+    const double viscosity =
+        static_cast<double>(std::max(scene.physics.viscosity, scene.domain.walls ? scene.domain.wall_viscosity : 0.0f));
+    return {.cfl = 0.4 * 0.5 * support / (speed_of_sound * (1.0 + 1.0 / sound_per_speed)),
+            .viscosity = viscosity > 0.0 ? 0.06 * lightest * support * support / viscosity
+                                         : std::numeric_limits<double>::infinity()};
+}
+
+FluidSettings fluid_settings(const Scene& scene, const ParticleSet& particles)
+{
+    FluidSettings settings;
+    shared::SphParams& params = settings.simulation.params;
+    params.domain_min = scene.domain.min;
+    params.domain_max = scene.domain.max;
+    params.support_radius = static_cast<float>(support_radius(scene));
+    params.gravity = scene.physics.gravity;
+    params.wall_mask = scene.domain.walls ? 0x3fu : 0u;
+    params.state_equation = scene.physics.state_equation == StateEquation::Tait ? shared::STATE_EQUATION_TAIT
+                                                                                : shared::STATE_EQUATION_LINEAR;
+    params.clamp_pressure = scene.physics.clamp_pressure ? 1 : 0;
+    params.speed_of_sound =
+        scene.physics.speed_of_sound.value_or(static_cast<float>(sound_per_speed * expected_speed(scene, particles)));
+    params.gamma = scene.physics.gamma;
+    params.background_pressure = scene.physics.background_pressure;
+    params.viscosity = scene.physics.viscosity;
+    params.wall_viscosity = scene.domain.wall_viscosity;
+    params.surface_tension = scene.physics.surface_tension;
+    params.tension_threshold = scene.physics.tension_threshold;
+    const SceneMaterials materials = scene_materials(scene);
+    for (std::size_t i = 0; i < materials.materials.size(); ++i) {
+        params.rest_density[i] = materials.materials[i].rest_density;
+    }
+
+    const double frame_rate = static_cast<double>(scene.time.frame_rate);
+    const TimeStepBounds bounds = time_step_bounds(scene, static_cast<double>(params.speed_of_sound));
+    params.dt = scene.time.dt.value_or(frame_steps_dt(bounds.smallest(), frame_rate));
+    const double dt = static_cast<double>(params.dt);
+    if (dt * frame_rate > 1.0 + 1e-6) {
+        throw input_error("{}: time.dt is {:.6g} s, longer than a frame of {:.6g} s (time.frame_rate {:.6g})",
+                          scene.name, dt, 1.0 / frame_rate, frame_rate);
+    }
+    if (dt > bounds.cfl * (1.0 + 1e-6)) {
+        settings.warnings.push_back(
+            fmt::format("time.dt is {:.4g} s, above the CFL bound of {:.4g} s (speed of sound {:.4g} "
+                        "m/s, support radius {:.4g} m): the run may break down",
+                        dt, bounds.cfl, params.speed_of_sound, params.support_radius));
+    }
+    if (dt > bounds.viscosity * (1.0 + 1e-6)) {
+        settings.warnings.push_back(
+            fmt::format("time.dt is {:.4g} s, above the viscous bound of {:.4g} s (viscosity {:.4g} "
+                        "Pa s): the run may break down",
+                        dt, bounds.viscosity, scene.physics.viscosity));
+    }
+    // The CFL bound of the particles' own speed; the sound's is for the warning above.
+    params.speed_limit = 0.4f * 0.5f * params.support_radius / params.dt;
+
+    sim::FluidOptions& options = settings.simulation.options;
+    options.kernel = scene.kernel == SphKernel::Wendland ? shared::KERNEL_WENDLAND : shared::KERNEL_PAPER;
+    options.tension = scene.physics.surface_tension > 0.0f;
+    set_kernel_scales(params, options.kernel, static_cast<double>(scene.particles.spacing));
+    return settings;
+}
+
+} // namespace meltpoint

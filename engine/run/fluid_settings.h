@@ -1,0 +1,34 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "particles/particle_set.h"
+#include "scene/scene.h"
+#include "sim/simulation.h"
+
+namespace meltpoint {
+
+/// The speed that the fluid of a scene may reach, m/s: its fastest particle, plus free fall from the highest to the
+/// lowest place of the domain that lies below it. At least 1 m/s where neither gravity nor velocities say anything.
+[[nodiscard]] double expected_speed(const Scene& scene, const ParticleSet& particles);
+
+/// The largest stable time steps (s) at support radius S, each the bound of one thing.
+struct TimeStepBounds {
+    double cfl = 0.0;       ///< 0.4 (S/2) / (c0 + v), v the speed for which c0 is ten times as high
+    double viscosity = 0.0; ///< 0.06 rho S^2 / mu, infinite without viscosity
+
+    [[nodiscard]] double smallest() const { return cfl < viscosity ? cfl : viscosity; }
+};
+[[nodiscard]] TimeStepBounds time_step_bounds(const Scene& scene, double speed_of_sound);
+
+struct FluidSettings {
+    sim::SimulationSettings simulation;
+    std::vector<std::string> warnings; ///< sentences: a dt above its bounds
+};
+
+/// What the passes need of a scene: automatic speed of sound and dt resolved, kernel scales computed. An automatic dt
+/// is the largest within the bounds that divides a frame. Throws Input when dt is longer than a frame.
+[[nodiscard]] FluidSettings fluid_settings(const Scene& scene, const ParticleSet& particles);
+
+} // namespace meltpoint

@@ -1,0 +1,13 @@
+#pragma once
+
+#include <string>
+
+#include "geometry/triangle_mesh.h"
+
+namespace meltpoint {
+
+/// The mesh that a scene or a command line names: "builtin:NAME" or the path of a file. Throws Input as builtin_mesh
+/// and import_mesh do.
+[[nodiscard]] TriangleMesh load_mesh(const std::string& name);
+
+} // namespace meltpoint

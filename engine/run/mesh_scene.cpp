@@ -1,0 +1,78 @@
+#include "run/mesh_scene.h"
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+
+#include <fmt/ranges.h>
+
+#include "core/error.h"
+#include "core/nearest_name.h"
+#include "geometry/volume_sampling.h"
+#include "run/load_mesh.h"
+#include "scene/scene_file.h"
+
+namespace meltpoint {
+
+namespace {
+
+constexpr double wanted_particles = 16'000.0;
+
+// The size at which the viscosity and the frame rate below look right: that of the default scene's teapot.
+constexpr double model_size = 0.9;        // m
+constexpr double model_viscosity = 1.0;   // Pa s
+constexpr double model_frame_rate = 60.0; // 1/s
+
+bool is_scene_file(const std::filesystem::path& path)
+{
+    return path.extension() == ".toml";
+}
+
+} // namespace
+
+Scene mesh_scene(const std::string& name)
+{
+    const TriangleMesh mesh = load_mesh(name);
+    const glm::vec3 extent = bounds(mesh).size();
+    const double volume = measure_volume(mesh);
+    if (!(volume > 0.0)) {
+        throw input_error("{}: the mesh encloses no volume that could be filled", name);
+    }
+    const float largest = std::max({extent.x, extent.y, extent.z});
+    const double similarity = static_cast<double>(largest) / model_size;
+
+    Scene scene;
+    scene.name = name.starts_with("builtin:") ? name.substr(8) : std::filesystem::path(name).stem().string();
+    scene.description = "A mesh filled with fluid, dropped into a box.";
+    scene.kernel = SphKernel::Wendland;
+    scene.particles.spacing = static_cast<float>(std::cbrt(volume / wanted_particles));
+    scene.physics.viscosity = static_cast<float>(model_viscosity * std::pow(similarity, 1.5));
+    scene.time.frame_rate = static_cast<float>(model_frame_rate / std::sqrt(similarity));
+
+    const glm::vec2 side = glm::max(1.3f * glm::vec2(extent.x, extent.z), glm::vec2(0.75f * largest));
+    scene.domain.min = glm::vec3(-side.x, 0.0f, -side.y);
+    scene.domain.max = glm::vec3(side.x, 1.6f * extent.y + 0.4f * largest, side.y);
+    MeshShape shape{.mesh = name};
+    shape.position = glm::vec3(0.0f, extent.y, 0.0f); // its lowest point half its height above the floor
+    scene.fluids.push_back({.shape = shape});
+    return scene;
+}
+
+Scene find_scene(const std::string& name, std::span<const std::string> overrides)
+{
+    if (name.starts_with("builtin:") || (std::filesystem::is_regular_file(name) && !is_scene_file(name))) {
+        return parse_scene(write_scene(mesh_scene(name)), name, std::filesystem::current_path(), overrides);
+    }
+    const std::vector<std::string> builtin = builtin_scene_names();
+    if (std::find(builtin.begin(), builtin.end(), name) != builtin.end() && !std::filesystem::exists(name)) {
+        return builtin_scene(name, overrides);
+    }
+    if (std::filesystem::exists(name) || is_scene_file(name)) {
+        return read_scene_file(name, overrides);
+    }
+    const auto nearest = nearest_name(name, builtin);
+    throw input_error("there is no scene or mesh \"{}\": neither a file nor a built-in scene ({}){}", name,
+                      fmt::join(builtin, ", "), nearest ? fmt::format("; did you mean \"{}\"?", *nearest) : "");
+}
+
+} // namespace meltpoint

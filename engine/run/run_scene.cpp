@@ -1,0 +1,220 @@
+#include "run/run_scene.h"
+
+#include <chrono>
+#include <cmath>
+#include <memory>
+#include <optional>
+
+#include <fmt/format.h>
+
+#include "core/error.h"
+#include "core/log.h"
+#include "core/progress.h"
+#include "io/atomic_file.h"
+#include "io/image_write.h"
+#include "io/particle_export.h"
+#include "render/legend.h"
+#include "render/renderer.h"
+#include "run/fluid_settings.h"
+#include "run/frame_statistics.h"
+#include "run/frame_view.h"
+#include "run/scene_particles.h"
+#include "run/video.h"
+#include "sim/simulation.h"
+
+namespace meltpoint {
+
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+double milliseconds_since(Clock::time_point start)
+{
+    return std::chrono::duration<double, std::milli>(Clock::now() - start).count();
+}
+
+std::filesystem::path frame_path(const RunOptions& options, std::uint32_t frame)
+{
+    return options.out / fmt::format("frame_{:04}.png", frame);
+}
+
+std::filesystem::path particles_path(const RunOptions& options, std::uint32_t frame)
+{
+    return options.out / fmt::format("particles_{:04}.ply", frame);
+}
+
+void refuse_existing(const std::filesystem::path& path)
+{
+    if (std::filesystem::exists(path)) {
+        throw input_error("{} exists: give --force to replace it, or another place", path.string());
+    }
+}
+
+/// Makes the folders; keeps existing output unless forced, and then takes away frames that this run would leave behind.
+void prepare_output(const Scene& scene, const RunOptions& options)
+{
+    std::error_code error;
+    for (const std::filesystem::path& folder :
+         {options.out, options.video.parent_path(), options.stats.parent_path()}) {
+        if (!folder.empty() && !std::filesystem::create_directories(folder, error) && error) {
+            throw runtime_error("cannot make the folder {}: {}", folder.string(), error.message());
+        }
+    }
+    if (!options.force) {
+        for (std::uint32_t frame = 0; frame < scene.time.frames; ++frame) {
+            refuse_existing(frame_path(options, frame));
+            if (options.particles) {
+                refuse_existing(particles_path(options, frame));
+            }
+        }
+        for (const std::filesystem::path& file : {options.video, options.stats}) {
+            if (!file.empty()) {
+                refuse_existing(file);
+            }
+        }
+        return;
+    }
+    for (std::uint32_t frame = 0; std::filesystem::exists(frame_path(options, frame)); ++frame) {
+        std::filesystem::remove(frame_path(options, frame), error);
+    }
+    for (std::uint32_t frame = 0; std::filesystem::exists(particles_path(options, frame)); ++frame) {
+        std::filesystem::remove(particles_path(options, frame), error);
+    }
+}
+
+/// Frames per second of the video: real time where screens can show it; tiny and huge scenes play slower or faster.
+double playback_rate(const Scene& scene)
+{
+    constexpr double screen_rate = 60.0;
+    const auto rate = static_cast<double>(scene.time.frame_rate);
+    return rate >= 10.0 && rate <= 2.0 * screen_rate ? rate : screen_rate;
+}
+
+/// The stats file so far is written again with every frame, aside and renamed: whatever happens, whole rows remain.
+class StatisticsFile {
+public:
+    explicit StatisticsFile(std::filesystem::path path) : path_(std::move(path)), text_(statistics_header()) {}
+
+    void add(const FrameStatistics& statistics)
+    {
+        text_ += statistics_row(statistics);
+        write_file_atomically(path_, std::as_bytes(std::span(text_)));
+    }
+
+private:
+    std::filesystem::path path_;
+    std::string text_;
+};
+
+/// Draws the simulation's particles where they lie.
+class FramePainter {
+public:
+    FramePainter(const gpu::Context& context, const Scene& scene, const shared::SphParams& params)
+        : renderer_(context, scene.render.width, scene.render.height), commands_(context),
+          settings_(frame_settings(scene, params)), legend_(frame_legend(scene, settings_))
+    {
+    }
+
+    Image paint(const ParticleBuffers& particles)
+    {
+        commands_.begin();
+        renderer_.draw(commands_,
+                       {.settings = settings_,
+                        .particles = render::ParticleView{particles.position, particles.velocity, particles.density,
+                                                          particles.pressure, particles.attributes, particles.count}});
+        commands_.submit();
+        commands_.wait();
+        Image image = renderer_.capture();
+        if (legend_) {
+            render::draw_legend(image, *legend_);
+        }
+        return image;
+    }
+
+private:
+    render::Renderer renderer_;
+    gpu::Commands commands_;
+    render::FrameSettings settings_;
+    std::optional<render::Legend> legend_;
+};
+
+} // namespace
+
+RunSummary run_scene(const gpu::Context& context, const Scene& scene, const RunOptions& options)
+{
+    const Clock::time_point start = Clock::now();
+    prepare_output(scene, options);
+    std::optional<VideoWriter> video;
+    if (!options.video.empty()) {
+        video.emplace(options.video, scene.render.width, scene.render.height, playback_rate(scene));
+    }
+
+    const ParticleSet initial = make_particles(scene, sim::Simulation::particle_limit(context));
+    const FluidSettings settings = fluid_settings(scene, initial);
+    for (const std::string& warning : settings.warnings) {
+        log_warning(fmt::format("{}: {}", scene.name, warning));
+    }
+    sim::Simulation simulation(context, initial, settings.simulation);
+    FramePainter painter(context, scene, simulation.params());
+    std::optional<StatisticsFile> statistics_file;
+    if (!options.stats.empty()) {
+        statistics_file.emplace(options.stats);
+    }
+    const double dt = static_cast<double>(simulation.params().dt);
+    if (!options.quiet) {
+        log_info(fmt::format("{}: {} particles, dt {:.4g} s, speed of sound {:.4g} m/s, on {}", scene.name,
+                             initial.size(), dt, simulation.params().speed_of_sound, context.info().name));
+    }
+
+    RunSummary summary{.particles = static_cast<std::uint32_t>(initial.size())};
+    Progress progress("frames", scene.time.frames, options.quiet);
+    for (std::uint32_t frame = 0; frame < scene.time.frames; ++frame) {
+        if (options.stop != nullptr && options.stop->load()) {
+            summary.stopped = true;
+            break;
+        }
+        // Frame times are exact multiples where dt divides a frame, else within half a step.
+        const double frame_time = frame / static_cast<double>(scene.time.frame_rate);
+        const auto target = static_cast<std::uint64_t>(std::llround(frame_time / dt));
+        Clock::time_point clock = Clock::now();
+        simulation.advance(static_cast<std::uint32_t>(target - simulation.step()));
+        const double simulate_ms = milliseconds_since(clock);
+
+        clock = Clock::now();
+        const Image image = painter.paint(simulation.particles());
+        const double draw_ms = milliseconds_since(clock);
+        write_png(frame_path(options, frame), image);
+        if (video) {
+            video->add(image);
+        }
+        if (options.particles || statistics_file) {
+            const ParticleSet particles = simulation.download();
+            if (options.particles) {
+                write_ply(particles_path(options, frame), particles);
+            }
+            if (statistics_file) {
+                FrameStatistics statistics = measure(particles, simulation.params());
+                statistics.frame = frame;
+                statistics.time = simulation.time();
+                statistics.steps = simulation.step();
+                statistics.dt = dt;
+                statistics.neighbors_mean = simulation.neighbor_statistics().mean;
+                statistics.simulate_ms = simulate_ms;
+                statistics.draw_ms = draw_ms;
+                statistics_file->add(statistics);
+            }
+        }
+        ++summary.frames;
+        progress.advance(fmt::format("{:.3f} s", simulation.time()));
+    }
+    progress.finish();
+    if (video) {
+        video->finish();
+    }
+    summary.steps = simulation.step();
+    summary.time = simulation.time();
+    summary.seconds = milliseconds_since(start) * 1e-3;
+    return summary;
+}
+
+} // namespace meltpoint
