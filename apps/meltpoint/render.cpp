@@ -55,7 +55,7 @@ int render(const RenderOptions& options, bool quiet)
     if (!options.size.empty()) {
         set_size(scene, options.size);
     }
-    const std::filesystem::path out = options.out.empty() ? std::filesystem::path("out") / scene.name : options.out;
+    const std::filesystem::path out = options.out.empty() ? "out/" + scene.name : options.out;
 
     const gpu::Context context(context_options(options.scene));
     const RunSummary summary = run_scene(context, scene,

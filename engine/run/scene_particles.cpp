@@ -1,5 +1,6 @@
 #include "run/scene_particles.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include <fmt/format.h>

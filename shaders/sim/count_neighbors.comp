@@ -1,4 +1,5 @@
 #version 460
+#extension GL_EXT_control_flow_attributes : require
 #extension GL_GOOGLE_include_directive : require
 // For the statistics of a frame: how many other particles lie within the support radius of each, and how many of them are
 // so close that their pair has no direction. Twin: engine/reference/cells.cpp.
@@ -23,7 +24,7 @@ void main()
     vec3 x[TILE];
     NeighborCount found[TILE];
     Walk walk = empty_walk(params.grid_size);
-    for (uint k = 0u; k < TILE; ++k) {
+    [[unroll]] for (uint k = 0u; k < TILE; ++k) {
         x[k] = position[min(first + k, last)].xyz;
         include_position(walk, x[k], params.domain_min, params.support_radius);
         found[k] = NeighborCount(0u, 0u, 0u);
@@ -34,7 +35,7 @@ void main()
     FOR_EACH_CANDIDATE(range, walk) {
         vec3 xj = position[range.x].xyz;
         uint id_j = id[range.x];
-        for (uint k = 0u; k < TILE; ++k) {
+        [[unroll]] for (uint k = 0u; k < TILE; ++k) {
             vec3 offset = x[k] - xj;
             float r2 = dot(offset, offset);
             bool other = range.x != first + k;
@@ -44,7 +45,10 @@ void main()
         }
     }
 
-    for (uint k = 0u; k < TILE && first + k <= last; ++k) {
+    [[unroll]] for (uint k = 0u; k < TILE; ++k) {
+        if (first + k > last) {
+            break;
+        }
         counts[first + k] = found[k];
     }
 }

@@ -1,4 +1,5 @@
 #version 460
+#extension GL_EXT_control_flow_attributes : require
 #extension GL_GOOGLE_include_directive : require
 // Density and pressure: rho_i = m_i sum_j W_ij over the particles and their images in the walls (Solenthaler & Pajarola
 // 2008), then the state equation. Twin: engine/reference/density.cpp.
@@ -30,36 +31,39 @@ float state_equation(float rho, float rho0)
 
 void main()
 {
-    uint first = invocation_index() * TILE;
-    if (first >= params.particle_count) {
+    if (invocation_index() * TILE >= params.particle_count) {
         return;
     }
-    uint last = min(first + TILE, params.particle_count) - 1u;
+    vec3 own[TILE];
+    Tile tile = load_tile(invocation_index(), own);
 
     float h = params.support_radius;
     KernelSize size = kernel_size(h);
     float sum[TILE];
-    for (uint k = 0u; k < TILE; ++k) {
+    [[unroll]] for (uint k = 0u; k < TILE; ++k) {
         sum[k] = 0.0;
     }
 
     for (uint image = 0u; image < IMAGES; ++image) {
-        vec3 x[TILE];
-        Walk walk = begin_image_walk(first, last, image, x);
-        if (is_empty(walk)) {
+        if (!has_image(tile, image)) {
             continue;
         }
+        vec3 x[TILE];
+        Walk walk = begin_image_walk(own, image, x);
         FOR_EACH_CANDIDATE(range, walk) {
             vec3 xj = position[range.x].xyz;
-            for (uint k = 0u; k < TILE; ++k) {
+            [[unroll]] for (uint k = 0u; k < TILE; ++k) {
                 vec3 offset = x[k] - xj;
                 sum[k] += density_shape(dot(offset, offset), size);
             }
         }
     }
 
-    for (uint k = 0u; k < TILE && first + k <= last; ++k) {
-        uint i = first + k;
+    [[unroll]] for (uint k = 0u; k < TILE; ++k) {
+        uint i = tile.first + k;
+        if (i > tile.last) {
+            break;
+        }
         float rho0 = params.rest_density[particle_material(attributes[i])];
         float rho = position[i].w * params.density_scale * sum[k];
         density[i] = rho;

@@ -1,4 +1,5 @@
 #version 460
+#extension GL_EXT_control_flow_attributes : require
 #extension GL_GOOGLE_include_directive : require
 // Accelerations: pressure, viscosity and the paper's surface tension, of the particles and their images in the walls; gravity;
 // wall friction and contact. Pair forces are symmetric, so momentum is conserved: F_ij = -(p_i V_i^2 + p_j V_j^2) grad W + mu V_i V_j (v_j - v_i) lap W, with V = m / rho
@@ -52,11 +53,11 @@ vec3 tension_acceleration(vec3 n, float laplacian, float rho)
 
 void main()
 {
-    uint first = invocation_index() * TILE;
-    if (first >= params.particle_count) {
+    if (invocation_index() * TILE >= params.particle_count) {
         return;
     }
-    uint last = min(first + TILE, params.particle_count) - 1u;
+    vec3 own[TILE];
+    Tile tile = load_tile(invocation_index(), own);
 
     float h = params.support_radius;
     KernelSize size = kernel_size(h);
@@ -66,8 +67,8 @@ void main()
     vec3 force[TILE];
     vec3 color_gradient[TILE];
     float color_laplacian[TILE];
-    for (uint k = 0u; k < TILE; ++k) {
-        uint i = min(first + k, last);
+    [[unroll]] for (uint k = 0u; k < TILE; ++k) {
+        uint i = min(tile.first + k, tile.last);
         v[k] = velocity[i].xyz;
         float volume = position[i].w / density[i];
         pressure_term[k] = params.gradient_scale * pressure[i] * volume * volume;
@@ -78,11 +79,11 @@ void main()
     }
 
     for (uint image = 0u; image < IMAGES; ++image) {
-        vec3 x[TILE];
-        Walk walk = begin_image_walk(first, last, image, x);
-        if (is_empty(walk)) {
+        if (!has_image(tile, image)) {
             continue;
         }
+        vec3 x[TILE];
+        Walk walk = begin_image_walk(own, image, x);
         vec3 signs = image_signs(image); // reflects a vector at the walls of this image
         FOR_EACH_CANDIDATE(range, walk) {
             uint j = range.x;
@@ -90,7 +91,7 @@ void main()
             vec3 vj = signs * velocity[j].xyz;
             float volume_j = xj.w / density[j];
             float pressure_term_j = params.gradient_scale * pressure[j] * volume_j * volume_j;
-            for (uint k = 0u; k < TILE; ++k) {
+            [[unroll]] for (uint k = 0u; k < TILE; ++k) {
                 vec3 offset = signs * (x[k] - xj.xyz);
                 float r2 = dot(offset, offset);
                 vec2 shape = force_shapes(r2, size);
@@ -105,10 +106,13 @@ void main()
         }
     }
 
-    for (uint k = 0u; k < TILE && first + k <= last; ++k) {
-        uint i = first + k;
+    [[unroll]] for (uint k = 0u; k < TILE; ++k) {
+        uint i = tile.first + k;
+        if (i > tile.last) {
+            break;
+        }
         vec3 a = params.gravity + force[k] / position[i].w;
-        a += wall_acceleration(position[i].xyz, v[k], density[i]);
+        a += wall_acceleration(own[k], v[k], density[i]);
         if (TENSION) {
             a += tension_acceleration(params.color_gradient_scale * color_gradient[k],
                                       params.color_laplacian_scale * color_laplacian[k], density[i]);
