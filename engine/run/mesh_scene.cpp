@@ -20,7 +20,7 @@ constexpr double wanted_particles = 16'000.0;
 
 // The size at which the viscosity and the frame rate below look right: that of the default scene's teapot.
 constexpr double model_size = 0.9;        // m
-constexpr double model_viscosity = 1.0;   // Pa s
+constexpr double model_viscosity = 4.0;   // Pa s
 constexpr double model_frame_rate = 60.0; // 1/s
 
 bool is_scene_file(const std::filesystem::path& path)
@@ -49,11 +49,13 @@ Scene mesh_scene(const std::string& name)
     scene.physics.viscosity = static_cast<float>(model_viscosity * std::pow(similarity, 1.5));
     scene.time.frame_rate = static_cast<float>(model_frame_rate / std::sqrt(similarity));
 
-    const glm::vec2 side = glm::max(1.3f * glm::vec2(extent.x, extent.z), glm::vec2(0.75f * largest));
+    const glm::vec2 side = 0.5f * glm::vec2(extent.x, extent.z) + 0.2f * largest;
     scene.domain.min = glm::vec3(-side.x, 0.0f, -side.y);
-    scene.domain.max = glm::vec3(side.x, 1.6f * extent.y + 0.4f * largest, side.y);
+    scene.domain.max = glm::vec3(side.x, 1.5f * extent.y + 0.6f * largest, side.y);
+    scene.domain.wall_viscosity = 0.5f * scene.physics.viscosity;
+    scene.render.splat_radius = 0.75f;
     MeshShape shape{.mesh = name};
-    shape.position = glm::vec3(0.0f, extent.y, 0.0f); // its lowest point half its height above the floor
+    shape.position = glm::vec3(0.0f, 0.5f * extent.y + 0.4f * largest, 0.0f);
     scene.fluids.push_back({.shape = shape});
     return scene;
 }

@@ -11,7 +11,7 @@ namespace meltpoint {
 /// the name of a built-in scene. Overrides are "key=value" as in scene_file.h. Throws Input, naming what there is.
 [[nodiscard]] Scene find_scene(const std::string& name, std::span<const std::string> overrides);
 
-/// A mesh filled with about 16,000 particles of fluid and dropped from half its height into a box scaled to it.
+/// A mesh filled with about 16,000 particles of fluid and dropped from 0.4 times its size into a box scaled to it.
 /// Viscosity and frame rate follow its size (Froude's similarity), so that a thimble and a house splash alike.
 [[nodiscard]] Scene mesh_scene(const std::string& mesh);
 
