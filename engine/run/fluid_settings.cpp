@@ -33,6 +33,15 @@ double fall_work(const Scene& scene, const glm::dvec3& x)
     return work;
 }
 
+double heaviest_rest_density(const Scene& scene)
+{
+    double heaviest = 0.0;
+    for (const FluidBody& body : scene.fluids) {
+        heaviest = std::max(heaviest, static_cast<double>(body.rest_density));
+    }
+    return heaviest;
+}
+
 float frame_steps_dt(double bound, double frame_rate)
 {
     const double steps = std::ceil(1.0 / (frame_rate * bound));
@@ -111,6 +120,16 @@ FluidSettings fluid_settings(const Scene& scene, const ParticleSet& particles)
             fmt::format("time.dt is {:.4g} s, above the viscous bound of {:.4g} s (viscosity {:.4g} "
                         "Pa s): the run may break down",
                         dt, bounds.viscosity, scene.physics.viscosity));
+    }
+    // Spiky is not poly6's gradient: the paper's kernels feed in energy that only viscosity takes out again (measured:
+    // energy falls from about 0.005 rho c0 d on).
+    const double calming = 0.005 * heaviest_rest_density(scene) * static_cast<double>(params.speed_of_sound) *
+                           static_cast<double>(scene.particles.spacing);
+    if (scene.kernel == SphKernel::Paper && static_cast<double>(scene.physics.viscosity) < calming) {
+        settings.warnings.push_back(
+            fmt::format("physics.viscosity is {:.4g} Pa s; below about {:.2g} Pa s the paper's kernels "
+                        "feed energy into this scene (kernel = \"wendland\" does not)",
+                        scene.physics.viscosity, calming));
     }
     // The CFL bound of the particles' own speed; the sound's is for the warning above.
     params.speed_limit = 0.4f * 0.5f * params.support_radius / params.dt;

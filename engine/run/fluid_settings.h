@@ -24,7 +24,7 @@ struct TimeStepBounds {
 
 struct FluidSettings {
     sim::SimulationSettings simulation;
-    std::vector<std::string> warnings; ///< sentences: a dt above its bounds
+    std::vector<std::string> warnings; ///< sentences: a dt above its bounds, a viscosity too low for the paper's kernels
 };
 
 /// What the passes need of a scene: automatic speed of sound and dt resolved, kernel scales computed. An automatic dt

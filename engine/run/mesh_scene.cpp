@@ -44,7 +44,6 @@ Scene mesh_scene(const std::string& name)
     Scene scene;
     scene.name = name.starts_with("builtin:") ? name.substr(8) : std::filesystem::path(name).stem().string();
     scene.description = "A mesh filled with fluid, dropped into a box.";
-    scene.kernel = SphKernel::Wendland;
     scene.particles.spacing = static_cast<float>(std::cbrt(volume / wanted_particles));
     scene.physics.viscosity = static_cast<float>(model_viscosity * std::pow(similarity, 1.5));
     scene.time.frame_rate = static_cast<float>(model_frame_rate / std::sqrt(similarity));

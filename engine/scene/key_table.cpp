@@ -232,7 +232,7 @@ std::vector<SceneKey> make_scene_keys()
         k("description", FIELD(description), "", Range{0, 10000}, "what it shows"),
         choice<Scene>("solver", FIELD(solver), {{"wcsph", Solver::Wcsph}}, "weakly compressible SPH"),
         choice<Scene>("kernel", FIELD(kernel), {{"paper", SphKernel::Paper}, {"wendland", SphKernel::Wendland}},
-                      "paper: poly6, spiky and viscosity kernels (Mueller et al. 2003), fast, for pictures; wendland: C2, for truth, best with particles.support_ratio = 3"),
+                      "wendland: C2 for all, for pictures at particles.support_ratio = 2, for truth at 3; paper: poly6, spiky and viscosity kernels (Mueller et al. 2003), which need more viscosity to stay calm"),
         k("seed", FIELD(seed), "", Range{0, 1e18},
           "of all random numbers: the same seed gives the same run"),
 

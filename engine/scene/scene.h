@@ -103,7 +103,7 @@ struct Scene {
     std::string name = "untitled";
     std::string description;
     Solver solver = Solver::Wcsph;
-    SphKernel kernel = SphKernel::Paper;
+    SphKernel kernel = SphKernel::Wendland;
     std::uint64_t seed = 1;
     DomainSettings domain;
     ParticleSettings particles;
