@@ -42,6 +42,21 @@ double heaviest_rest_density(const Scene& scene)
     return heaviest;
 }
 
+/// Walls are mirrors; a particle between two of them would need images of images without end.
+void check_width(const Scene& scene)
+{
+    const glm::vec3 size = scene.domain.max - scene.domain.min;
+    const auto least = static_cast<float>(2.0 * support_radius(scene));
+    for (int axis = 0; axis < 3; ++axis) {
+        if (scene.domain.walls && size[axis] < least) {
+            throw input_error(
+                "{}: the domain is {:.4g} m wide along {}, between walls it must be at least two support radii, "
+                "{:.4g} m (2 x particles.support_ratio x particles.spacing)",
+                scene.name, size[axis], "xyz"[axis], least);
+        }
+    }
+}
+
 float frame_steps_dt(double bound, double frame_rate)
 {
     const double steps = std::ceil(1.0 / (frame_rate * bound));
@@ -78,6 +93,7 @@ TimeStepBounds time_step_bounds(const Scene& scene, double speed_of_sound)
 
 FluidSettings fluid_settings(const Scene& scene, const ParticleSet& particles)
 {
+    check_width(scene);
     FluidSettings settings;
     shared::SphParams& params = settings.simulation.params;
     params.domain_min = scene.domain.min;

@@ -24,11 +24,13 @@ struct TimeStepBounds {
 
 struct FluidSettings {
     sim::SimulationSettings simulation;
-    std::vector<std::string> warnings; ///< sentences: a dt above its bounds, a viscosity too low for the paper's kernels
+    std::vector<std::string>
+        warnings; ///< sentences: a dt above its bounds, a viscosity too low for the paper's kernels
 };
 
 /// What the passes need of a scene: automatic speed of sound and dt resolved, kernel scales computed. An automatic dt
-/// is the largest within the bounds that divides a frame. Throws Input when dt is longer than a frame.
+/// is the largest within the bounds that divides a frame. Throws Input when dt is longer than a frame or walls stand
+/// closer than two support radii.
 [[nodiscard]] FluidSettings fluid_settings(const Scene& scene, const ParticleSet& particles);
 
 } // namespace meltpoint

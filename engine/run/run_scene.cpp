@@ -167,6 +167,7 @@ RunSummary run_scene(const gpu::Context& context, const Scene& scene, const RunO
     }
 
     RunSummary summary{.particles = static_cast<std::uint32_t>(initial.size())};
+    bool warned_of_coincident = false;
     Progress progress("frames", scene.time.frames, options.quiet);
     for (std::uint32_t frame = 0; frame < scene.time.frames; ++frame) {
         if (options.stop != nullptr && options.stop->load()) {
@@ -198,7 +199,15 @@ RunSummary run_scene(const gpu::Context& context, const Scene& scene, const RunO
                 statistics.time = simulation.time();
                 statistics.steps = simulation.step();
                 statistics.dt = dt;
-                statistics.neighbors_mean = simulation.neighbor_statistics().mean;
+                const sim::NeighborStatistics neighbors = simulation.neighbor_statistics();
+                statistics.neighbors_mean = neighbors.mean;
+                if (neighbors.coincident > 0 && !warned_of_coincident) {
+                    log_warning(
+                        fmt::format("frame {}: {} pairs of particles lie on top of each other and do not push each "
+                                    "other apart (do fluids overlap?)",
+                                    frame, neighbors.coincident / 2));
+                    warned_of_coincident = true;
+                }
                 statistics.simulate_ms = simulate_ms;
                 statistics.draw_ms = draw_ms;
                 statistics_file->add(statistics);

@@ -5,7 +5,7 @@
 // touch. With equal masses it is the usual rho_i = sum_j m_j W_ij. The sums include i itself.
 //
 // Lattice moments: sums over a lattice of the scene's spacing miss the continuum integrals by some percent, so every kernel
-// scale below is already divided by its moment on that lattice (design note: README, "Moments").
+// scale below is already divided by its moment on that lattice (README, "Moments").
 //
 // Walls are mirrors: a particle nearer to walls than the support radius also meets the images of its neighbors and of itself
 // behind them, reflected across one, two or three walls, with their density, pressure and reflected velocity. So a wall
@@ -24,7 +24,7 @@ SHARED_CONSTANT uint STATE_EQUATION_TAIT = 1u;   // p = (c0^2 rho0 / gamma) ((rh
 
 SHARED_CONSTANT uint MAX_MATERIALS = 64u;
 
-// Pairs closer than this fraction of the support radius have no direction: zero gradient, counted in Status.
+// Pairs closer than this fraction of the support radius have no direction: zero gradient, counted in NeighborCount.
 SHARED_CONSTANT float COINCIDENT_RATIO = 1e-6f;
 
 // Grid cells are half a support radius long in x and one support radius in y and z. A particle's neighbors lie in the 9 rows
