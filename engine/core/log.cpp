@@ -3,12 +3,16 @@
 #include <spdlog/sinks/stdout_sinks.h>
 #include <spdlog/spdlog.h>
 
+#include "core/progress.h"
+
 namespace meltpoint {
 
 namespace {
 
+/// Ready for a line of its own.
 spdlog::logger& logger()
 {
+    clear_progress_line();
     static const std::shared_ptr<spdlog::logger> instance = [] {
         auto created = std::make_shared<spdlog::logger>("meltpoint", std::make_shared<spdlog::sinks::stderr_sink_mt>());
         created->set_pattern("%v");

@@ -1,6 +1,7 @@
 #include "core/progress.h"
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 #include <cstdio>
 #include <utility>
@@ -17,6 +18,9 @@ namespace {
 constexpr std::chrono::milliseconds REDRAW_INTERVAL{100};
 constexpr std::size_t BAR_WIDTH = 24;
 constexpr const char* CLEAR_LINE = "\r\x1b[K";
+
+// Of the one terminal that stderr may be.
+std::atomic<bool> bar_is_showing{false};
 
 std::size_t terminal_columns()
 {
@@ -67,22 +71,28 @@ void Progress::advance(std::string_view detail)
     const Clock::time_point now = Clock::now();
     if (style_ == Style::Lines) {
         fmt::print(stderr, "{} {}/{}{}{}\n", label_, done_, total_, detail.empty() ? "" : "  ", detail);
-    } else if (style_ == Style::Bar && (!is_drawn_ || now - last_drawn_ >= REDRAW_INTERVAL)) {
+    } else if (style_ == Style::Bar && (!bar_is_showing || now - last_drawn_ >= REDRAW_INTERVAL)) {
         const double seconds = std::chrono::duration<double>(now - start_).count();
         fmt::print(stderr, "{}{}", CLEAR_LINE,
                    progress_bar_line(label_, done_, total_, seconds, detail, terminal_columns() - 1));
         std::fflush(stderr);
         last_drawn_ = now;
-        is_drawn_ = true;
+        bar_is_showing = true;
     }
 }
 
 void Progress::finish()
 {
-    if (is_drawn_) {
+    if (style_ == Style::Bar) {
+        clear_progress_line();
+    }
+}
+
+void clear_progress_line()
+{
+    if (bar_is_showing.exchange(false)) {
         fmt::print(stderr, "{}", CLEAR_LINE);
         std::fflush(stderr);
-        is_drawn_ = false;
     }
 }
 

@@ -34,8 +34,11 @@ private:
     Style style_;
     Clock::time_point start_ = Clock::now();
     Clock::time_point last_drawn_;
-    bool is_drawn_ = false;
 };
+
+/// Clears the line of a bar that is showing, so that something else can be written to stderr; the bar comes back with
+/// its next item. Thread safe.
+void clear_progress_line();
 
 /// The bar's line, at most `columns` wide: "frames [=====     ] 30/90  4.1/s  0:15 left  detail".
 std::string progress_bar_line(std::string_view label, std::size_t done, std::size_t total, double seconds,
