@@ -21,6 +21,13 @@ double support_radius(const Scene& scene)
     return static_cast<double>(scene.particles.spacing) * static_cast<double>(scene.particles.support_ratio);
 }
 
+/// Pa s, of the fluid or at the walls.
+double largest_viscosity(const Scene& scene)
+{
+    const float at_walls = scene.domain.walls ? scene.domain.wall_viscosity : 0.0f;
+    return static_cast<double>(std::max(scene.physics.viscosity, at_walls));
+}
+
 /// How far x can fall along gravity before it meets the domain's border, times |g|.
 double fall_work(const Scene& scene, const glm::dvec3& x)
 {
@@ -63,6 +70,19 @@ float frame_steps_dt(double bound, double frame_rate)
     return static_cast<float>(1.0 / (frame_rate * std::max(steps, 1.0)));
 }
 
+/// The device counts steps in 32 bits, of which one value means "none".
+void check_step_count(const Scene& scene, double dt)
+{
+    constexpr double most_steps = 4294967294.0;
+    const double duration = (scene.time.frames - 1) / static_cast<double>(scene.time.frame_rate);
+    if (!(duration / dt <= most_steps)) {
+        throw input_error(
+            "{}: {} frames at a dt of {:.4g} s are {:.3g} steps, more than {:.0f}: choose fewer frames or a "
+            "larger time.dt",
+            scene.name, scene.time.frames, dt, duration / dt, most_steps);
+    }
+}
+
 } // namespace
 
 double expected_speed(const Scene& scene, const ParticleSet& particles)
@@ -77,16 +97,15 @@ double expected_speed(const Scene& scene, const ParticleSet& particles)
     return fastest > 0.0 ? fastest : nothing_known;
 }
 
-TimeStepBounds time_step_bounds(const Scene& scene, double speed_of_sound)
+TimeStepBounds time_step_bounds(const Scene& scene, double speed_of_sound, double speed)
 {
     const double support = support_radius(scene);
     double lightest = std::numeric_limits<double>::infinity();
     for (const FluidBody& body : scene.fluids) {
         lightest = std::min(lightest, static_cast<double>(body.rest_density));
     }
-    const double viscosity =
-        static_cast<double>(std::max(scene.physics.viscosity, scene.domain.walls ? scene.domain.wall_viscosity : 0.0f));
-    return {.cfl = 0.4 * 0.5 * support / (speed_of_sound * (1.0 + 1.0 / sound_per_speed)),
+    const double viscosity = largest_viscosity(scene);
+    return {.cfl = 0.4 * 0.5 * support / (speed_of_sound + speed),
             .viscosity = viscosity > 0.0 ? 0.06 * lightest * support * support / viscosity
                                          : std::numeric_limits<double>::infinity()};
 }
@@ -104,8 +123,8 @@ FluidSettings fluid_settings(const Scene& scene, const ParticleSet& particles)
     params.state_equation = scene.physics.state_equation == StateEquation::Tait ? shared::STATE_EQUATION_TAIT
                                                                                 : shared::STATE_EQUATION_LINEAR;
     params.clamp_pressure = scene.physics.clamp_pressure ? 1 : 0;
-    params.speed_of_sound =
-        scene.physics.speed_of_sound.value_or(static_cast<float>(sound_per_speed * expected_speed(scene, particles)));
+    const double speed = expected_speed(scene, particles);
+    params.speed_of_sound = scene.physics.speed_of_sound.value_or(static_cast<float>(sound_per_speed * speed));
     params.gamma = scene.physics.gamma;
     params.background_pressure = scene.physics.background_pressure;
     params.viscosity = scene.physics.viscosity;
@@ -118,24 +137,25 @@ FluidSettings fluid_settings(const Scene& scene, const ParticleSet& particles)
     }
 
     const double frame_rate = static_cast<double>(scene.time.frame_rate);
-    const TimeStepBounds bounds = time_step_bounds(scene, static_cast<double>(params.speed_of_sound));
+    const TimeStepBounds bounds = time_step_bounds(scene, static_cast<double>(params.speed_of_sound), speed);
     params.dt = scene.time.dt.value_or(frame_steps_dt(bounds.smallest(), frame_rate));
     const double dt = static_cast<double>(params.dt);
     if (dt * frame_rate > 1.0 + 1e-6) {
         throw input_error("{}: time.dt is {:.6g} s, longer than a frame of {:.6g} s (time.frame_rate {:.6g})",
                           scene.name, dt, 1.0 / frame_rate, frame_rate);
     }
+    check_step_count(scene, dt);
     if (dt > bounds.cfl * (1.0 + 1e-6)) {
         settings.warnings.push_back(
-            fmt::format("time.dt is {:.4g} s, above the CFL bound of {:.4g} s (speed of sound {:.4g} "
-                        "m/s, support radius {:.4g} m): the run may break down",
-                        dt, bounds.cfl, params.speed_of_sound, params.support_radius));
+            fmt::format("time.dt is {:.4g} s, above the CFL bound of {:.4g} s (speed of sound {:.4g} m/s, expected "
+                        "speed {:.4g} m/s, support radius {:.4g} m): the run may break down",
+                        dt, bounds.cfl, params.speed_of_sound, speed, params.support_radius));
     }
     if (dt > bounds.viscosity * (1.0 + 1e-6)) {
         settings.warnings.push_back(
             fmt::format("time.dt is {:.4g} s, above the viscous bound of {:.4g} s (viscosity {:.4g} "
                         "Pa s): the run may break down",
-                        dt, bounds.viscosity, scene.physics.viscosity));
+                        dt, bounds.viscosity, largest_viscosity(scene)));
     }
     // Spiky is not poly6's gradient: the paper's kernels feed in energy that only viscosity takes out again (measured:
     // energy falls from about 0.005 rho c0 d on).

@@ -15,12 +15,13 @@ namespace meltpoint {
 
 /// The largest stable time steps (s) at support radius S, each the bound of one thing.
 struct TimeStepBounds {
-    double cfl = 0.0;       ///< 0.4 (S/2) / (c0 + v), v the speed for which c0 is ten times as high
+    double cfl = 0.0;       ///< 0.4 (S/2) / (c0 + v)
     double viscosity = 0.0; ///< 0.06 rho S^2 / mu, infinite without viscosity
 
     [[nodiscard]] double smallest() const { return cfl < viscosity ? cfl : viscosity; }
 };
-[[nodiscard]] TimeStepBounds time_step_bounds(const Scene& scene, double speed_of_sound);
+/// speed_of_sound: c0, m/s. speed: v, the fastest that the fluid is expected to move, m/s.
+[[nodiscard]] TimeStepBounds time_step_bounds(const Scene& scene, double speed_of_sound, double speed);
 
 struct FluidSettings {
     sim::SimulationSettings simulation;
@@ -29,8 +30,8 @@ struct FluidSettings {
 };
 
 /// What the passes need of a scene: automatic speed of sound and dt resolved, kernel scales computed. An automatic dt
-/// is the largest within the bounds that divides a frame. Throws Input when dt is longer than a frame or walls stand
-/// closer than two support radii.
+/// is the largest within the bounds that divides a frame. Throws Input when dt is longer than a frame or so short that
+/// the run's steps cannot be counted, and when walls stand closer than two support radii.
 [[nodiscard]] FluidSettings fluid_settings(const Scene& scene, const ParticleSet& particles);
 
 } // namespace meltpoint
