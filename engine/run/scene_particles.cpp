@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include <fmt/format.h>
 #include <glm/gtc/matrix_transform.hpp>
@@ -51,18 +52,29 @@ VolumeSamples sample_shape(const FluidBody& body, double spacing)
                       body.shape);
 }
 
-/// Volume of a shape where it is known without sampling, else 0.
-double known_volume(const FluidBody& body)
+/// Volume of a mesh, measured only where its box could hold more than `limit` particles, else 0.
+double volume_worth_measuring(const MeshShape& shape, double spacing, std::uint64_t limit)
 {
-    return std::visit(Overloaded{
-                          [](const BlockShape& block) {
-                              const glm::dvec3 size = glm::dvec3(block.max) - glm::dvec3(block.min);
-                              return size.x * size.y * size.z;
-                          },
-                          [](const SphereShape& ball) { return 4.0 / 3.0 * M_PI * std::pow(double{ball.radius}, 3); },
-                          [](const MeshShape& /*mesh*/) { return 0.0; },
-                      },
-                      body.shape);
+    const TriangleMesh mesh = placed_mesh(shape);
+    const glm::dvec3 size(bounds(mesh).size());
+    const bool could_be_too_many = size.x * size.y * size.z / std::pow(spacing, 3) > static_cast<double>(limit);
+    return could_be_too_many ? measure_volume(mesh) : 0.0;
+}
+
+/// About how many particles fill a shape; 0 for meshes that cannot need more than `limit`.
+double expected_particles(const FluidBody& body, double spacing, std::uint64_t limit)
+{
+    const double volume = std::visit(
+        Overloaded{
+            [](const BlockShape& block) {
+                const glm::dvec3 size = glm::dvec3(block.max) - glm::dvec3(block.min);
+                return size.x * size.y * size.z;
+            },
+            [](const SphereShape& ball) { return 4.0 / 3.0 * std::numbers::pi * std::pow(double{ball.radius}, 3); },
+            [&](const MeshShape& mesh) { return volume_worth_measuring(mesh, spacing, limit); },
+        },
+        body.shape);
+    return volume / std::pow(spacing, 3);
 }
 
 void check_inside(const Scene& scene, const VolumeSamples& samples, std::size_t fluid)
@@ -93,7 +105,7 @@ ParticleSet make_particles(const Scene& scene, std::uint64_t limit)
     const double spacing = static_cast<double>(scene.particles.spacing);
     double expected = 0.0;
     for (const FluidBody& body : scene.fluids) {
-        expected += known_volume(body) / std::pow(spacing, 3);
+        expected += expected_particles(body, spacing, limit);
     }
     if (expected > static_cast<double>(limit)) {
         throw_too_many(scene, expected, limit);
