@@ -23,6 +23,11 @@ constexpr double model_size = 0.9;        // m
 constexpr double model_viscosity = 4.0;   // Pa s
 constexpr double model_frame_rate = 60.0; // 1/s
 
+// What the ranges of a scene's keys leave room for.
+constexpr float smallest_mesh = 0.001f;   // m
+constexpr float largest_mesh = 2000.0f;   // m
+constexpr double largest_viscosity = 1e4; // Pa s
+
 bool is_scene_file(const std::filesystem::path& path)
 {
     return path.extension() == ".toml";
@@ -39,13 +44,20 @@ Scene mesh_scene(const std::string& name)
         throw input_error("{}: the mesh encloses no volume that could be filled", name);
     }
     const float largest = std::max({extent.x, extent.y, extent.z});
+    if (largest < smallest_mesh || largest > largest_mesh) {
+        throw input_error(
+            "{}: the mesh is {:.4g} m large, but only meshes of {} m to {} m can be dropped (a scene file "
+            "can scale it: fluid.size)",
+            name, largest, smallest_mesh, largest_mesh);
+    }
     const double similarity = static_cast<double>(largest) / model_size;
 
     Scene scene;
     scene.name = name.starts_with("builtin:") ? name.substr(8) : std::filesystem::path(name).stem().string();
     scene.description = "A mesh filled with fluid, dropped into a box.";
     scene.particles.spacing = static_cast<float>(std::cbrt(volume / wanted_particles));
-    scene.physics.viscosity = static_cast<float>(model_viscosity * std::pow(similarity, 1.5));
+    scene.physics.viscosity =
+        static_cast<float>(std::min(model_viscosity * std::pow(similarity, 1.5), largest_viscosity));
     scene.time.frame_rate = static_cast<float>(model_frame_rate / std::sqrt(similarity));
 
     const glm::vec2 side = 0.5f * glm::vec2(extent.x, extent.z) + 0.2f * largest;
@@ -61,14 +73,16 @@ Scene mesh_scene(const std::string& name)
 
 Scene find_scene(const std::string& name, std::span<const std::string> overrides)
 {
-    if (name.starts_with("builtin:") || (std::filesystem::is_regular_file(name) && !is_scene_file(name))) {
+    const std::vector<std::string> builtin = builtin_scene_names();
+    if (std::find(builtin.begin(), builtin.end(), name) != builtin.end()) {
+        return builtin_scene(name, overrides); // a file of that name is ./NAME
+    }
+    std::error_code error; // a name that cannot be a path, because it is too long, is not the name of a file
+    const std::filesystem::file_status status = std::filesystem::status(name, error);
+    if (name.starts_with("builtin:") || (std::filesystem::is_regular_file(status) && !is_scene_file(name))) {
         return parse_scene(write_scene(mesh_scene(name)), name, std::filesystem::current_path(), overrides);
     }
-    const std::vector<std::string> builtin = builtin_scene_names();
-    if (std::find(builtin.begin(), builtin.end(), name) != builtin.end() && !std::filesystem::exists(name)) {
-        return builtin_scene(name, overrides);
-    }
-    if (std::filesystem::exists(name) || is_scene_file(name)) {
+    if (std::filesystem::exists(status) || is_scene_file(name)) {
         return read_scene_file(name, overrides);
     }
     const auto nearest = nearest_name(name, builtin);
