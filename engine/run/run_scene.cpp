@@ -45,40 +45,65 @@ std::filesystem::path particles_path(const RunOptions& options, std::uint32_t fr
 
 void refuse_existing(const std::filesystem::path& path)
 {
-    if (std::filesystem::exists(path)) {
+    std::error_code error;
+    if (std::filesystem::exists(path, error)) {
         throw input_error("{} exists: give --force to replace it, or another place", path.string());
     }
 }
 
-/// Makes the folders; keeps existing output unless forced, and then takes away frames that this run would leave behind.
-void prepare_output(const Scene& scene, const RunOptions& options)
+/// A folder or a device is nothing to replace, --force or not.
+void refuse_special(const std::filesystem::path& path)
 {
     std::error_code error;
+    const std::filesystem::file_status status = std::filesystem::status(path, error);
+    if (std::filesystem::exists(status) && !std::filesystem::is_regular_file(status)) {
+        throw input_error("{} is {}, not a file to be written", path.string(),
+                          std::filesystem::is_directory(status) ? "a folder" : "a device, a pipe or a socket");
+    }
+}
+
+/// Throws where existing output stands in the way. Changes nothing.
+void check_output(const Scene& scene, const RunOptions& options)
+{
+    for (const std::filesystem::path& file : {options.video, options.stats}) {
+        if (!file.empty()) {
+            refuse_special(file);
+        }
+    }
+    if (options.force) {
+        return;
+    }
+    for (const std::filesystem::path& file : {options.video, options.stats}) {
+        if (!file.empty()) {
+            refuse_existing(file);
+        }
+    }
+    for (std::uint32_t frame = 0; frame < scene.time.frames; ++frame) {
+        refuse_existing(frame_path(options, frame));
+        if (options.particles) {
+            refuse_existing(particles_path(options, frame));
+        }
+    }
+}
+
+void make_folders(const RunOptions& options)
+{
     for (const std::filesystem::path& folder :
          {options.out, options.video.parent_path(), options.stats.parent_path()}) {
+        std::error_code error;
         if (!folder.empty() && !std::filesystem::create_directories(folder, error) && error) {
             throw runtime_error("cannot make the folder {}: {}", folder.string(), error.message());
         }
     }
-    if (!options.force) {
-        for (std::uint32_t frame = 0; frame < scene.time.frames; ++frame) {
-            refuse_existing(frame_path(options, frame));
-            if (options.particles) {
-                refuse_existing(particles_path(options, frame));
-            }
+}
+
+/// Takes away the frames of an earlier run, some of which this run might leave behind among its own.
+void remove_old_frames(const RunOptions& options)
+{
+    for (const auto& path_of : {frame_path, particles_path}) {
+        std::error_code error;
+        for (std::uint32_t frame = 0; std::filesystem::remove(path_of(options, frame), error); ++frame) {
         }
-        for (const std::filesystem::path& file : {options.video, options.stats}) {
-            if (!file.empty()) {
-                refuse_existing(file);
-            }
-        }
-        return;
-    }
-    for (std::uint32_t frame = 0; std::filesystem::exists(frame_path(options, frame)); ++frame) {
-        std::filesystem::remove(frame_path(options, frame), error);
-    }
-    for (std::uint32_t frame = 0; std::filesystem::exists(particles_path(options, frame)); ++frame) {
-        std::filesystem::remove(particles_path(options, frame), error);
     }
 }
 
@@ -143,7 +168,8 @@ private:
 RunSummary run_scene(const gpu::Context& context, const Scene& scene, const RunOptions& options)
 {
     const Clock::time_point start = Clock::now();
-    prepare_output(scene, options);
+    check_output(scene, options);
+    make_folders(options);
     std::optional<VideoWriter> video;
     if (!options.video.empty()) {
         video.emplace(options.video, scene.render.width, scene.render.height, playback_rate(scene));
@@ -166,6 +192,9 @@ RunSummary run_scene(const gpu::Context& context, const Scene& scene, const RunO
                              initial.size(), dt, simulation.params().speed_of_sound, context.info().name));
     }
 
+    if (options.force) { // not before all else is known to work: a mistyped scene leaves the old frames alone
+        remove_old_frames(options);
+    }
     RunSummary summary{.particles = static_cast<std::uint32_t>(initial.size())};
     bool warned_of_coincident = false;
     Progress progress("frames", scene.time.frames, options.quiet);
@@ -217,7 +246,7 @@ RunSummary run_scene(const gpu::Context& context, const Scene& scene, const RunO
         progress.advance(fmt::format("{:.3f} s", simulation.time()));
     }
     progress.finish();
-    if (video) {
+    if (video && summary.frames > 0) { // a video of no frames is none
         video->finish();
     }
     summary.steps = simulation.step();

@@ -33,7 +33,7 @@ std::vector<std::string> ffmpeg_arguments(const std::filesystem::path& output, s
             fmt::format("{}x{}", width, height), "-framerate", fmt::format("{}", frame_rate), "-i", "-",
             // Most players want even sizes and 4:2:0 chroma.
             "-vf", "pad=ceil(iw/2)*2:ceil(ih/2)*2", "-pix_fmt", "yuv420p", "-crf", "18", "-movflags", "+faststart",
-            output.string()};
+            "file:" + output.string()}; // or ffmpeg would take a colon in a path for the end of a protocol's name
 }
 
 } // namespace
