@@ -1,6 +1,12 @@
+#include <cerrno>
 #include <csignal>
+#include <cstdio>
 #include <exception>
 #include <new>
+#include <system_error>
+
+#include <fcntl.h>
+#include <unistd.h>
 
 #include <CLI/CLI.hpp>
 
@@ -35,8 +41,35 @@ int run(int argc, char** argv)
         app.parse(argc, argv);
     } catch (const CLI::ParseError& error) {
         const bool asked_for = error.get_exit_code() == static_cast<int>(CLI::ExitCodes::Success);
+        if (!asked_for && argc > 1 && app.get_subcommands().empty() && argv[1][0] != '-') {
+            throw input_error("there is no subcommand \"{}\"; there are render, compare and info", argv[1]);
+        }
         app.exit(error); // prints help and version to stdout, mistakes to stderr
         return asked_for ? program::exit_done : program::exit_bad_input;
+    }
+    return exit_code;
+}
+
+/// A stream that the caller closed would give its number to the next file opened, which would then receive our text.
+void reserve_standard_streams()
+{
+    while (true) {
+        const int descriptor = open("/dev/null", O_RDWR);
+        if (descriptor > STDERR_FILENO) {
+            close(descriptor);
+        }
+        if (descriptor < 0 || descriptor > STDERR_FILENO) {
+            return;
+        }
+    }
+}
+
+/// Results that did not arrive, on a full disk or a closed pipe, are a failure like any other.
+int run_and_flush(int argc, char** argv)
+{
+    const int exit_code = run(argc, argv);
+    if (std::fflush(stdout) != 0 || std::ferror(stdout) != 0) {
+        throw runtime_error("cannot write to the standard output: {}", std::generic_category().message(errno));
     }
     return exit_code;
 }
@@ -46,8 +79,9 @@ int run(int argc, char** argv)
 int main(int argc, char** argv)
 {
     std::signal(SIGPIPE, SIG_IGN); // a closed pipe is an error to report, not a reason to vanish
+    reserve_standard_streams();
     try {
-        return run(argc, argv);
+        return run_and_flush(argc, argv);
     } catch (const Error& error) {
         log_error(error.what());
         return error.kind() == ErrorKind::Input ? program::exit_bad_input : program::exit_failed;

@@ -1,6 +1,10 @@
+#include <algorithm>
 #include <charconv>
+#include <filesystem>
 #include <memory>
 #include <optional>
+#include <string>
+#include <vector>
 
 #include <fmt/format.h>
 
@@ -27,8 +31,8 @@ struct RenderOptions {
     bool force = false;
 };
 
-/// "WxH" -> pixels.
-void set_size(Scene& scene, const std::string& text)
+/// "WxH" as the overrides of a scene, which is where the allowed sizes are known.
+std::vector<std::string> size_overrides(const std::string& text)
 {
     std::uint32_t width = 0;
     std::uint32_t height = 0;
@@ -36,26 +40,36 @@ void set_size(Scene& scene, const std::string& text)
     const auto [after_width, width_error] = std::from_chars(text.data(), end, width);
     if (width_error == std::errc() && after_width != end && *after_width == 'x') {
         const auto [after_height, height_error] = std::from_chars(after_width + 1, end, height);
-        if (height_error == std::errc() && after_height == end && width > 0 && height > 0) {
-            scene.render.width = width;
-            scene.render.height = height;
-            return;
+        if (height_error == std::errc() && after_height == end) {
+            return {fmt::format("render.width={}", width), fmt::format("render.height={}", height)};
         }
     }
     throw input_error("--size {}: expected WIDTHxHEIGHT in pixels, as in 960x540", text);
 }
 
+/// A folder named after the scene, inside out/ whatever the name.
+std::filesystem::path default_folder(const std::string& scene_name)
+{
+    std::string folder = scene_name;
+    std::replace(folder.begin(), folder.end(), '/', '_');
+    return std::filesystem::path("out") / (folder == "." || folder == ".." ? "_" : folder);
+}
+
 int render(const RenderOptions& options, bool quiet)
 {
     const InterruptGuard interrupt;
-    Scene scene = load_scene(options.scene);
+    SceneOptions scene_options = options.scene;
     if (options.frames) {
-        scene.time.frames = *options.frames;
+        scene_options.overrides.push_back(fmt::format("time.frames={}", *options.frames));
     }
     if (!options.size.empty()) {
-        set_size(scene, options.size);
+        for (const std::string& text : size_overrides(options.size)) {
+            scene_options.overrides.push_back(text);
+        }
     }
-    const std::filesystem::path out = options.out.empty() ? "out/" + scene.name : options.out;
+    const Scene scene = load_scene(scene_options);
+    const std::filesystem::path out =
+        options.out.empty() ? default_folder(scene.name) : std::filesystem::path(options.out);
 
     const gpu::Context context(context_options(options.scene));
     const RunSummary summary = run_scene(context, scene,
