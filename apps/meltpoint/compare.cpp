@@ -112,9 +112,8 @@ void add_compare(CLI::App& app, const GlobalOptions& /*global*/, int& exit_code)
         "compare", "Runs a scene's passes on the device and in the CPU reference side by side; exit code "
                    "1 where an error lies beyond its bound");
     add_scene_options(*command, options->scene);
-    command->add_option("--steps", options->steps, "Time steps on both sides")
+    command->add_option("--steps", options->steps, "Time steps on both sides [50]")
         ->type_name("N")
-        ->capture_default_str()
         ->check(CLI::Range(0u, 100'000u));
     command->add_flag("--json", options->json, "Prints the result as JSON");
     command->callback([options, &exit_code] { exit_code = compare(*options); });

@@ -78,7 +78,9 @@ int run_and_flush(int argc, char** argv)
 
 int main(int argc, char** argv)
 {
-    std::signal(SIGPIPE, SIG_IGN); // a closed pipe is an error to report, not a reason to vanish
+    // A closed pipe and a file at its size limit are errors to report, not reasons to vanish.
+    std::signal(SIGPIPE, SIG_IGN);
+    std::signal(SIGXFSZ, SIG_IGN);
     reserve_standard_streams();
     try {
         return run_and_flush(argc, argv);

@@ -1,0 +1,603 @@
+// The program as a user meets it: run as a child process, judged by its exit code, its two streams and its files.
+
+#include <algorithm>
+#include <chrono>
+#include <csignal>
+#include <cstdlib>
+#include <filesystem>
+#include <map>
+#include <sstream>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include <fcntl.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include "support/scratch_folder.h"
+
+namespace meltpoint {
+namespace {
+
+namespace fs = std::filesystem;
+using Arguments = std::vector<std::string>;
+
+struct Result {
+    int exit_code = -1; ///< 128 + signal where one ended it
+    std::string out;
+    std::string err;
+};
+
+/// The program, started in a folder of its own.
+class Cli : public testing::Test {
+protected:
+    [[nodiscard]] fs::path path(const std::string& name) const { return folder_ / name; }
+
+    /// For the programs started later.
+    void set_environment(const std::string& name, std::string value) { environment_[name] = std::move(value); }
+
+    pid_t start(const Arguments& arguments, const std::string& stdout_path = "") const
+    {
+        Arguments line{MELTPOINT_TEST_PROGRAM};
+        line.insert(line.end(), arguments.begin(), arguments.end());
+        return spawn(line, stdout_path);
+    }
+
+    Result run(const Arguments& arguments, const std::string& stdout_path = "") const
+    {
+        return finish(start(arguments, stdout_path));
+    }
+
+    /// Through a shell, where "$P" is the program.
+    Result shell(const std::string& script) const
+    {
+        return finish(spawn({"/bin/bash", "-c", "P='" MELTPOINT_TEST_PROGRAM "'; " + script}, ""));
+    }
+
+    Result finish(pid_t child) const
+    {
+        int status = 0;
+        EXPECT_EQ(waitpid(child, &status, 0), child);
+        Result result;
+        result.exit_code = WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
+        result.out = test::read_bytes(streams_ / "out");
+        result.err = test::read_bytes(streams_ / "err");
+        return result;
+    }
+
+    /// Names of everything in a folder, sorted, hidden files included.
+    [[nodiscard]] std::vector<std::string> files(const std::string& folder) const
+    {
+        std::vector<std::string> names;
+        for (const fs::directory_entry& entry : fs::directory_iterator(path(folder))) {
+            names.push_back(entry.path().filename().string());
+        }
+        std::sort(names.begin(), names.end());
+        return names;
+    }
+
+    [[nodiscard]] std::string bytes(const std::string& file) const { return test::read_bytes(path(file)); }
+
+private:
+    pid_t spawn(const Arguments& line, const std::string& stdout_path) const
+    {
+        std::vector<char*> argv;
+        for (const std::string& argument : line) {
+            argv.push_back(const_cast<char*>(argument.c_str())); // NOLINT(cppcoreguidelines-pro-type-const-cast)
+        }
+        argv.push_back(nullptr);
+        const pid_t child = fork();
+        if (child != 0) {
+            return child;
+        }
+        const std::string out = stdout_path.empty() ? (streams_ / "out").string() : stdout_path;
+        const auto redirect = [](int stream, const std::string& file) {
+            dup2(open(file.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0666), stream);
+        };
+        redirect(STDOUT_FILENO, out);
+        redirect(STDERR_FILENO, (streams_ / "err").string());
+        for (const auto& [name, value] : environment_) {
+            setenv(name.c_str(), value.c_str(), 1);
+        }
+        if (chdir(folder_.path().c_str()) == 0) {
+            execv(argv[0], argv.data());
+        }
+        _exit(127);
+    }
+
+    test::ScratchFolder folder_;
+    test::ScratchFolder streams_;
+    std::map<std::string, std::string> environment_;
+};
+
+/// A coarse, small and quick run of a built-in scene.
+Arguments quick(const std::string& out, const Arguments& more = {}, const std::string& scene = "dam_break")
+{
+    Arguments arguments{"render", scene,      "--out", out,     "--size",
+                        "96x54",  "--frames", "3",     "--set", "particles.spacing=0.1"};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    return arguments;
+}
+
+bool is_png(const std::string& bytes)
+{
+    return bytes.starts_with("\x89PNG\r\n\x1a\n") && bytes.size() > 20 &&
+           bytes.compare(bytes.size() - 8, 4, "IEND") == 0;
+}
+
+/// The lines of a text, without those of the progress.
+Arguments messages(const std::string& text)
+{
+    Arguments lines;
+    std::istringstream stream(text);
+    for (std::string line; std::getline(stream, line);) {
+        if (!line.starts_with("frames ")) {
+            lines.push_back(line);
+        }
+    }
+    return lines;
+}
+
+/// Exit code and one sentence on stderr, nothing on stdout.
+void expect_one_sentence(const Result& result, int exit_code, const std::string& part)
+{
+    EXPECT_EQ(result.exit_code, exit_code) << result.err;
+    EXPECT_EQ(result.out, "");
+    ASSERT_FALSE(messages(result.err).empty());
+    const std::string last = messages(result.err).back();
+    EXPECT_TRUE(last.starts_with("error: ")) << result.err;
+    EXPECT_NE(last.find(part), std::string::npos) << result.err;
+    const auto errors =
+        std::ranges::count_if(messages(result.err), [](const std::string& line) { return line.starts_with("error"); });
+    EXPECT_EQ(errors, 1) << result.err;
+}
+
+std::vector<std::string> split(const std::string& text, char separator)
+{
+    std::vector<std::string> parts(1);
+    for (const char c : text) {
+        if (c == separator) {
+            parts.emplace_back();
+        } else {
+            parts.back() += c;
+        }
+    }
+    return parts;
+}
+
+// --- help, version, usage
+// ---------------------------------------------------------------------------------------------
+
+TEST_F(Cli, HelpNamesEverySubcommandAndTheExitCodes)
+{
+    const Result result = run({"--help"});
+    EXPECT_EQ(result.exit_code, 0);
+    EXPECT_EQ(result.err, "");
+    for (const char* part : {"render", "compare", "info", "--quiet", "--version", "Exit codes", "130"}) {
+        EXPECT_NE(result.out.find(part), std::string::npos) << part;
+    }
+}
+
+TEST_F(Cli, HelpOfEverySubcommandTellsUnitsAndDefaults)
+{
+    const std::map<std::string, Arguments> expected{
+        {"render",
+         {"--out", "[out/NAME", "--frames", "time.frames", "--size", "in pixels", "--video", "--particles", "--stats",
+          "SI units", "--device", "--set", "--validate", "--force"}},
+        {"compare", {"--steps", "[50]", "--json", "--device", "--set", "--validate"}},
+        {"info", {"--device", "--json"}}};
+    for (const auto& [subcommand, parts] : expected) {
+        const Result result = run({subcommand, "--help"});
+        EXPECT_EQ(result.exit_code, 0);
+        EXPECT_EQ(result.err, "");
+        for (const std::string& part : parts) {
+            EXPECT_NE(result.out.find(part), std::string::npos) << subcommand << ": " << part << "\n" << result.out;
+        }
+    }
+}
+
+TEST_F(Cli, Version)
+{
+    const Result result = run({"--version"});
+    EXPECT_EQ(result.exit_code, 0);
+    EXPECT_EQ(result.out.substr(0, 10), "meltpoint ");
+    EXPECT_EQ(result.err, "");
+}
+
+TEST_F(Cli, WrongUsageExitsWithTwo)
+{
+    for (const Arguments& arguments : std::vector<Arguments>{{},
+                                                             {"render"},
+                                                             {"render", "drop", "extra"},
+                                                             {"render", "drop", "--nonsense"},
+                                                             {"render", "drop", "--frames", "0"},
+                                                             {"render", "drop", "--frames", "-1"},
+                                                             {"render", "drop", "--frames", "many"},
+                                                             {"render", "drop", "--frames", "1e99"},
+                                                             {"render", "drop", "--frames", "4", "--frames", "5"},
+                                                             {"render", "drop", "--particles", "xyz"},
+                                                             {"render", "drop", "--out"},
+                                                             {"compare", "drop", "--steps", "-1"},
+                                                             {"nonsense"}}) {
+        const Result result = run(arguments);
+        EXPECT_EQ(result.exit_code, 2) << testing::PrintToString(arguments);
+        EXPECT_EQ(result.out, "") << testing::PrintToString(arguments);
+        EXPECT_NE(result.err, "") << testing::PrintToString(arguments);
+    }
+    expect_one_sentence(run({"nonsense"}), 2, "there is no subcommand \"nonsense\"");
+    EXPECT_TRUE(files(".").empty());
+}
+
+TEST_F(Cli, BadInputIsOneSentenceAndExitsWithTwo)
+{
+    test::write_bytes(path("empty.obj"), "");
+    test::write_bytes(path("empty.toml"), "");
+    test::write_bytes(path("nan.toml"), "[[fluid]]\nshape = \"block\"\nmin = [0, 0, 0]\nmax = [0.5, nan, 0.5]\n");
+    test::write_bytes(path("binary.toml"), std::string("\0\1\2\xff", 4));
+    test::write_bytes(path("flat.obj"), "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
+    fs::create_directory(path("folder"));
+    const std::vector<std::pair<Arguments, std::string>> cases{
+        {{"no_such_scene"}, "no scene or mesh \"no_such_scene\""},
+        {{"folder"}, "it is a folder"},
+        {{"empty.obj"}, "the file is empty"},
+        {{"empty.toml"}, "a scene has at least one [[fluid]]"},
+        {{"nan.toml"}, "nan.toml:4: key \"fluid.0.max\""},
+        {{"binary.toml"}, "binary.toml"},
+        {{"flat.obj"}, "encloses no volume"},
+        {{"builtin:bunny"}, "bunny"},
+        {{"drop", "--size", "96"}, "--size 96: expected WIDTHxHEIGHT"},
+        {{"drop", "--size", "96x"}, "expected WIDTHxHEIGHT"},
+        {{"drop", "--size", "-96x54"}, "expected WIDTHxHEIGHT"},
+        {{"drop", "--size", "96x54 "}, "expected WIDTHxHEIGHT"},
+        {{"drop", "--size", "99999999999x54"}, "expected WIDTHxHEIGHT"},
+        {{"drop", "--size", "0x54"}, "render.width"},
+        {{"drop", "--size", "96x100000"}, "key \"render.height\" is 100000, but must be"},
+        {{"drop", "--set", "physics.viscosty=1"}, "did you mean \"physics.viscosity\"?"},
+        {{"drop", "--set", "physics.viscosity=-1"}, "physics.viscosity"},
+        {{"drop", "--set", "physics.viscosity="}, "physics.viscosity"},
+        {{"drop", "--set", "viscosity"}, "viscosity"},
+        {{"drop", "--set", "fluid.7.velocity=[0,0,0]"}, "fluid.7.velocity"},
+        {{"drop", "--set", "particles.spacing=0.001"}, "more than the device can hold"},
+        {{"drop", "--device", "nonsense"}, "no device is named like \"nonsense\""},
+        {{"drop", "--device", "99"}, "there is no device 99"},
+        {{"drop", "--video", "x.gif", "--set", "particles.spacing=0.1"}, "none of .mp4, .mkv, .mov"},
+        {{"drop", "--stats", "folder"}, "folder is a folder"},
+        {{"drop", "--stats", "/dev/full", "--force"}, "not a file"},
+    };
+    for (const auto& [more, part] : cases) {
+        Arguments arguments{"render"};
+        arguments.insert(arguments.end(), more.begin(), more.end());
+        SCOPED_TRACE(testing::PrintToString(arguments));
+        expect_one_sentence(run(arguments), 2, part);
+    }
+    EXPECT_TRUE(fs::exists("/dev/full") && !fs::is_regular_file("/dev/full"));
+}
+
+// --- info
+// -------------------------------------------------------------------------------------------------------------
+
+TEST_F(Cli, InfoAsJsonIsJsonAlone)
+{
+    const Result result = run({"info", "--json"});
+    EXPECT_EQ(result.exit_code, 0);
+    EXPECT_EQ(result.err, "");
+    const auto document = nlohmann::json::parse(result.out);
+    ASSERT_FALSE(document["devices"].empty());
+    EXPECT_TRUE(document["devices"][0].contains("missing"));
+    EXPECT_EQ(std::ranges::count_if(document["devices"], [](const auto& device) { return device["chosen"] == true; }),
+              1);
+}
+
+TEST_F(Cli, InfoTellsDevicesAndVersions)
+{
+    const Result result = run({"info"});
+    EXPECT_EQ(result.exit_code, 0);
+    EXPECT_EQ(result.err, "");
+    for (const char* part : {"meltpoint ", "Vulkan loader", "* device ", "driver", "lacks", "particles"}) {
+        EXPECT_NE(result.out.find(part), std::string::npos) << part;
+    }
+}
+
+TEST_F(Cli, ResultsThatCannotBeWrittenAreAFailure)
+{
+    const Result result = run({"info"}, "/dev/full");
+    EXPECT_EQ(result.exit_code, 1);
+    EXPECT_EQ(result.err, "error: cannot write to the standard output: No space left on device\n");
+}
+
+TEST_F(Cli, WithoutADeviceOneSentence)
+{
+    set_environment("VK_ICD_FILENAMES", "/nowhere.json");
+    set_environment("VK_DRIVER_FILES", "/nowhere.json");
+    expect_one_sentence(run(quick("out")), 1, "Vulkan");
+    expect_one_sentence(run({"info"}), 1, "Vulkan");
+    EXPECT_FALSE(fs::exists(path("out")));
+}
+
+// --- render: files and streams
+// ----------------------------------------------------------------------------------------
+
+TEST_F(Cli, RenderWritesNumberedFramesWithParticlesBesideThem)
+{
+    const Result result = run(quick("out", {"--particles", "ply"}));
+    EXPECT_EQ(result.exit_code, 0) << result.err;
+    EXPECT_EQ(files("out"), (Arguments{"frame_0000.png", "frame_0001.png", "frame_0002.png", "particles_0000.ply",
+                                       "particles_0001.ply", "particles_0002.ply"}));
+    for (const char* frame : {"out/frame_0000.png", "out/frame_0001.png", "out/frame_0002.png"}) {
+        EXPECT_TRUE(is_png(bytes(frame))) << frame;
+    }
+    EXPECT_NE(bytes("out/frame_0000.png"), bytes("out/frame_0002.png"));
+    EXPECT_NE(bytes("out/particles_0000.ply"), bytes("out/particles_0002.ply"));
+    EXPECT_EQ(result.out.find("out: 3 frames of 128 particles"), 0u) << result.out;
+    EXPECT_EQ(std::ranges::count(result.out, '\n'), 1);
+    EXPECT_NE(result.err.find("frames 3/3"), std::string::npos) << result.err;
+}
+
+TEST_F(Cli, PlyHasEveryIdOnce)
+{
+    ASSERT_EQ(run(quick("out", {"--particles", "ply"})).exit_code, 0);
+    const std::string text = bytes("out/particles_0002.ply");
+    const std::size_t end = text.find("end_header\n");
+    ASSERT_NE(end, std::string::npos);
+    std::istringstream header(text.substr(0, end));
+    const std::map<std::string, std::size_t> sizes{{"char", 1}, {"uchar", 1}, {"short", 2}, {"ushort", 2},
+                                                   {"int", 4},  {"uint", 4},  {"float", 4}, {"double", 8}};
+    std::size_t count = 0;
+    std::size_t stride = 0;
+    std::size_t id_offset = std::string::npos;
+    for (std::string line; std::getline(header, line);) {
+        const std::vector<std::string> words = split(line, ' ');
+        if (words[0] == "element") {
+            count = std::stoul(words[2]);
+        } else if (words[0] == "property") {
+            if (words[2] == "id") {
+                id_offset = stride;
+            }
+            stride += sizes.at(words[1]);
+        }
+    }
+    ASSERT_EQ(count, 128u);
+    ASSERT_NE(id_offset, std::string::npos);
+    const std::string body = text.substr(end + 11);
+    ASSERT_EQ(body.size(), count * stride);
+    std::vector<int> seen(count, 0);
+    for (std::size_t i = 0; i < count; ++i) {
+        std::uint32_t id = 0;
+        std::copy_n(body.data() + i * stride + id_offset, sizeof(id), reinterpret_cast<char*>(&id)); // NOLINT
+        ASSERT_LT(id, count);
+        ++seen[id];
+    }
+    EXPECT_EQ(std::ranges::count(seen, 1), 128);
+}
+
+TEST_F(Cli, QuietIsSilentButForTheResult)
+{
+    for (const Arguments& arguments : {quick("a", {"--quiet"}), quick("b", {"-q"})}) {
+        const Result result = run(arguments);
+        EXPECT_EQ(result.exit_code, 0);
+        EXPECT_EQ(result.err, "");
+        EXPECT_NE(result.out, "");
+    }
+    Arguments before{"--quiet"};
+    const Arguments rest = quick("c");
+    before.insert(before.end(), rest.begin(), rest.end());
+    EXPECT_EQ(run(before).err, "");
+}
+
+TEST_F(Cli, ExistingOutputIsKeptUnlessForced)
+{
+    fs::create_directory(path("out"));
+    test::write_bytes(path("out/frame_0001.png"), "mine");
+    test::write_bytes(path("s.csv"), "mine too");
+    expect_one_sentence(run(quick("out")), 2, "out/frame_0001.png exists: give --force");
+    expect_one_sentence(run(quick("other", {"--stats", "s.csv"})), 2, "s.csv exists: give --force");
+    EXPECT_EQ(files("."), (Arguments{"out", "s.csv"}));
+    EXPECT_EQ(files("out"), (Arguments{"frame_0001.png"}));
+    EXPECT_EQ(bytes("out/frame_0001.png"), "mine");
+    EXPECT_EQ(bytes("s.csv"), "mine too");
+
+    EXPECT_EQ(run(quick("out", {"--force", "--stats", "s.csv"})).exit_code, 0);
+    EXPECT_EQ(files("out").size(), 3u);
+    EXPECT_TRUE(is_png(bytes("out/frame_0001.png")));
+    EXPECT_TRUE(bytes("s.csv").starts_with("frame,time,"));
+}
+
+TEST_F(Cli, ForceTakesAwayTheFramesOfALongerRunButOnlyWhenItCanReplaceThem)
+{
+    fs::create_directory(path("out"));
+    for (int frame = 0; frame < 6; ++frame) {
+        test::write_bytes(path("out/frame_000" + std::to_string(frame) + ".png"), "old");
+        test::write_bytes(path("out/particles_000" + std::to_string(frame) + ".ply"), "old");
+    }
+    test::write_bytes(path("out/notes.txt"), "mine");
+    EXPECT_EQ(run(quick("out", {"--force", "--set", "particles.spacing=0.0001"})).exit_code, 2);
+    EXPECT_EQ(files("out").size(), 13u);
+    EXPECT_EQ(run(quick("out", {"--force"})).exit_code, 0);
+    EXPECT_EQ(files("out"), (Arguments{"frame_0000.png", "frame_0001.png", "frame_0002.png", "notes.txt"}));
+}
+
+TEST_F(Cli, OddPathsAndNames)
+{
+    EXPECT_EQ(run(quick("a b/ü/日本")).exit_code, 0);
+    EXPECT_EQ(files("a b/ü/日本").size(), 3u);
+    test::write_bytes(
+        path("-x.toml"),
+        "name = \"../up/../../x\"\n[[fluid]]\nshape = \"block\"\nmin = [0, 0, 0]\nmax = [0.3, 0.3, 0.3]\n");
+    EXPECT_EQ(
+        run({"render", "./-x.toml", "--frames", "1", "--size", "96x54", "--set", "particles.spacing=0.1"}).exit_code,
+        0);
+    EXPECT_EQ(files("out"), (Arguments{".._up_.._.._x"}));
+    test::write_bytes(path("file"), "");
+    expect_one_sentence(run(quick("file")), 1, "cannot make the folder file");
+    expect_one_sentence(run(quick("file/below")), 1, "cannot make the folder file/below");
+}
+
+TEST_F(Cli, StatsHaveARowAFrame)
+{
+    ASSERT_EQ(run(quick("out", {"--stats", "deep/er/s.csv"})).exit_code, 0);
+    const std::vector<std::string> lines = split(bytes("deep/er/s.csv"), '\n');
+    ASSERT_EQ(lines.size(), 5u); // a header, three frames, nothing after the last newline
+    EXPECT_EQ(lines.back(), "");
+    const std::vector<std::string> names = split(lines[0], ',');
+    ASSERT_EQ(names.size(), 31u);
+    std::vector<std::map<std::string, double>> rows;
+    for (std::size_t i = 1; i <= 3; ++i) {
+        const std::vector<std::string> cells = split(lines[i], ',');
+        ASSERT_EQ(cells.size(), names.size());
+        std::map<std::string, double>& row = rows.emplace_back();
+        for (std::size_t k = 0; k < names.size(); ++k) {
+            row[names[k]] = std::stod(cells[k]);
+        }
+    }
+    for (std::size_t i = 0; i < 3; ++i) {
+        EXPECT_EQ(rows[i]["frame"], static_cast<double>(i));
+        EXPECT_NEAR(rows[i]["time"], static_cast<double>(i) / 60.0, 1e-6);
+        EXPECT_NEAR(rows[i]["steps"] * rows[i]["dt"], rows[i]["time"], 1e-9);
+        EXPECT_EQ(rows[i]["fluid"], 128.0);
+        EXPECT_EQ(rows[i]["mass"], rows[0]["mass"]) << "to the last bit";
+        EXPECT_EQ(rows[i]["outside"], 0.0);
+        EXPECT_EQ(rows[i]["solid"] + rows[i]["dust"] + rows[i]["collider"] + rows[i]["dead"], 0.0);
+        EXPECT_GT(rows[i]["neighbors_mean"], 5.0);
+        EXPECT_LE(rows[i]["min_y"], rows[i]["com_y"]);
+        EXPECT_GE(rows[i]["max_y"], rows[i]["com_y"]);
+    }
+    EXPECT_NEAR(rows[0]["mass"], 1000.0 * 0.4 * 0.8 * 0.4, 1e-3);
+    EXPECT_EQ(rows[0]["kinetic_energy"], 0.0);
+    EXPECT_GT(rows[2]["kinetic_energy"], 0.0);
+    EXPECT_LT(rows[2]["potential_energy"], rows[0]["potential_energy"]);
+}
+
+TEST_F(Cli, RerunsAreTheSameToTheBit)
+{
+    const Arguments with_particles{"--particles", "ply"};
+    set_environment("LP_NUM_THREADS", "1");
+    ASSERT_EQ(run(quick("one", with_particles, "drop")).exit_code, 0);
+    set_environment("LP_NUM_THREADS", "2");
+    ASSERT_EQ(run(quick("two", with_particles, "drop")).exit_code, 0);
+    ASSERT_EQ(run(quick("again", with_particles, "drop")).exit_code, 0);
+    for (const std::string& file : files("one")) {
+        EXPECT_EQ(bytes("one/" + file), bytes("two/" + file)) << file;
+        EXPECT_EQ(bytes("two/" + file), bytes("again/" + file)) << file;
+    }
+}
+
+TEST_F(Cli, ValidationIsSilentOnTheDefaultScene)
+{
+    const Result result = run({"render", "teapot_drop", "--validate", "--frames", "2", "--size", "96x54", "--set",
+                               "particles.spacing=0.06", "--out", "out"});
+    EXPECT_EQ(result.exit_code, 0) << result.err;
+}
+
+// --- render: video
+// ----------------------------------------------------------------------------------------------------
+
+TEST_F(Cli, VideoIsWrittenWhereFfmpegIs)
+{
+    if (shell("command -v ffmpeg").exit_code != 0) {
+        GTEST_SKIP() << "no ffmpeg here";
+    }
+    const Result result = run(quick("out", {"--video", "a:b/clip.mp4"}));
+    EXPECT_EQ(result.exit_code, 0) << result.err;
+    EXPECT_EQ(files("a:b"), (Arguments{"clip.mp4"}));
+    EXPECT_EQ(bytes("a:b/clip.mp4").substr(4, 4), "ftyp");
+    expect_one_sentence(run(quick("other", {"--video", "a:b/clip.mp4"})), 2, "a:b/clip.mp4 exists");
+}
+
+TEST_F(Cli, WithoutFfmpegOneSentence)
+{
+    set_environment("PATH", "");
+    expect_one_sentence(run(quick("out", {"--video", "clip.mp4"})), 1, "--video needs the program ffmpeg");
+    EXPECT_FALSE(fs::exists(path("clip.mp4")));
+    EXPECT_TRUE(files("out").empty());
+}
+
+// --- render: things that go wrong while it runs
+// -----------------------------------------------------------------------
+
+TEST_F(Cli, ABreakdownNamesStepAndParticleAndKeepsTheFramesBefore)
+{
+    const Result result = run({"render", "dam_break", "--out", "out", "--size", "96x54", "--frames", "9", "--stats",
+                               "s.csv", "--set", "particles.spacing=0.1", "--set", "time.dt=0.01"});
+    expect_one_sentence(result, 1, "the simulation broke down in step ");
+    EXPECT_NE(result.err.find("at particle "), std::string::npos) << result.err;
+    EXPECT_NE(result.err.find("warning: dam_break: time.dt is 0.01 s, above the CFL bound of "), std::string::npos)
+        << result.err;
+    const std::vector<std::string> frames = files("out");
+    EXPECT_GE(frames.size(), 1u);
+    EXPECT_LT(frames.size(), 9u);
+    for (const std::string& frame : frames) {
+        EXPECT_TRUE(is_png(bytes("out/" + frame))) << frame;
+    }
+    EXPECT_EQ(std::ranges::count(bytes("s.csv"), '\n'), static_cast<std::ptrdiff_t>(frames.size()) + 1);
+}
+
+TEST_F(Cli, AFullDiskIsOneSentenceAndLeavesNoHalfFile)
+{
+    // A limit on the size of files stands for the full disk: the PNG fits, the particles do not.
+    const Result result = shell("ulimit -f 8; exec \"$P\" render dam_break --out out --size 96x54 --frames 3 --set "
+                                "particles.spacing=0.05 --particles ply");
+    expect_one_sentence(result, 1, "cannot write out/particles_0000.ply: ");
+    EXPECT_EQ(files("out"), (Arguments{"frame_0000.png"}));
+    EXPECT_TRUE(is_png(bytes("out/frame_0000.png")));
+}
+
+TEST_F(Cli, CtrlCFinishesTheFrameAndLeavesWholeFiles)
+{
+    const pid_t child = start({"render", "dam_break", "--out", "out", "--size", "96x54", "--frames", "100000",
+                               "--stats", "s.csv", "--set", "particles.spacing=0.1", "--particles", "ply"});
+    const auto deadline = std::chrono::steady_clock::now() + std::chrono::minutes(2);
+    while (!fs::exists(path("out/frame_0001.png")) && std::chrono::steady_clock::now() < deadline) {
+        std::this_thread::sleep_for(std::chrono::milliseconds(5));
+    }
+    kill(child, SIGINT);
+    const Result result = finish(child);
+    EXPECT_EQ(result.exit_code, 130) << result.err;
+    EXPECT_NE(result.err.find("interrupted after "), std::string::npos) << result.err;
+    std::size_t frames = 0;
+    std::size_t particles = 0;
+    for (const std::string& file : files("out")) {
+        const bool is_frame = file.starts_with("frame_");
+        (is_frame ? frames : particles)++;
+        EXPECT_TRUE(is_frame ? is_png(bytes("out/" + file)) : file.starts_with("particles_")) << file;
+    }
+    EXPECT_GE(frames, 2u);
+    EXPECT_LT(frames, 100000u);
+    EXPECT_EQ(particles, frames);
+    EXPECT_EQ(std::ranges::count(bytes("s.csv"), '\n'), static_cast<std::ptrdiff_t>(frames) + 1);
+    EXPECT_EQ(result.out.find("out: " + std::to_string(frames) + " frames"), 0u) << result.out;
+}
+
+// --- compare
+// ----------------------------------------------------------------------------------------------------------
+
+TEST_F(Cli, CompareAgreesAndPrintsJsonAlone)
+{
+    const Result result =
+        run({"compare", "dam_break", "--steps", "2", "--json", "--set", "particles.spacing=0.1", "--validate"});
+    EXPECT_EQ(result.exit_code, 0) << result.err;
+    const auto document = nlohmann::json::parse(result.out);
+    EXPECT_EQ(document["conforms"], true);
+    EXPECT_EQ(document["particles"], 128);
+    EXPECT_GT(document["results"].size(), 5u);
+    for (const auto& each : document["results"]) {
+        EXPECT_LE(each["error"].get<double>(), each["bound"].get<double>()) << each.dump();
+    }
+}
+
+TEST_F(Cli, ComparePrintsATable)
+{
+    const Result result = run({"compare", "dam_break", "--steps", "0", "--set", "particles.spacing=0.1", "--quiet"});
+    EXPECT_EQ(result.exit_code, 0) << result.err;
+    EXPECT_EQ(result.err, "");
+    for (const char* part : {"density", "bound", "ok", "The device agrees"}) {
+        EXPECT_NE(result.out.find(part), std::string::npos) << part << "\n" << result.out;
+    }
+    expect_one_sentence(run({"compare", "no_such_scene"}), 2, "no scene or mesh");
+}
+
+} // namespace
+} // namespace meltpoint

@@ -1,0 +1,216 @@
+#include "run/fluid_settings.h"
+
+#include <cmath>
+
+#include <gtest/gtest.h>
+
+#include "core/error.h"
+#include "run/scene_particles.h"
+
+namespace meltpoint {
+namespace {
+
+/// A block that can fall 1 m in a box 2 m high.
+Scene falling_block()
+{
+    Scene scene;
+    scene.name = "falling";
+    scene.particles.spacing = 0.1f;
+    scene.physics.viscosity = 0.01f;
+    FluidBody body;
+    body.shape = BlockShape{glm::vec3(-0.2f, 0.8f, -0.2f), glm::vec3(0.2f, 1.2f, 0.2f)};
+    scene.fluids.push_back(body);
+    return scene;
+}
+
+FluidSettings settings_of(const Scene& scene)
+{
+    return fluid_settings(scene, make_particles(scene, 1'000'000));
+}
+
+double dt_of(const Scene& scene)
+{
+    return static_cast<double>(settings_of(scene).simulation.params.dt);
+}
+
+/// Steps in a frame, which must be a whole number for frame times to be exact.
+double steps_in_a_frame(const Scene& scene)
+{
+    return 1.0 / (dt_of(scene) * static_cast<double>(scene.time.frame_rate));
+}
+
+TEST(FluidSettings, ExpectedSpeedIsThatOfFreeFallOntoTheFloor)
+{
+    const Scene scene = falling_block();
+    const ParticleSet particles = make_particles(scene, 1'000'000);
+    // The topmost layer's centers lie half a spacing below the block's top.
+    EXPECT_NEAR(expected_speed(scene, particles), std::sqrt(2.0 * 9.81 * 1.15), 1e-4);
+    EXPECT_NEAR(static_cast<double>(settings_of(scene).simulation.params.speed_of_sound),
+                10.0 * std::sqrt(2.0 * 9.81 * 1.15), 1e-3);
+}
+
+TEST(FluidSettings, ExpectedSpeedAddsVelocityToFall)
+{
+    Scene scene = falling_block();
+    scene.fluids[0].velocity = {3.0f, 0.0f, 4.0f};
+    EXPECT_NEAR(expected_speed(scene, make_particles(scene, 1'000'000)), 5.0 + std::sqrt(2.0 * 9.81 * 1.15), 1e-4);
+
+    scene.physics.gravity = {};
+    EXPECT_NEAR(expected_speed(scene, make_particles(scene, 1'000'000)), 5.0, 1e-6);
+}
+
+TEST(FluidSettings, ExpectedSpeedFollowsGravityInEveryDirection)
+{
+    Scene scene = falling_block();
+    scene.physics.gravity = {4.0f, 0.0f, 0.0f}; // to the wall at x = 1, from the leftmost particles at -0.15
+    EXPECT_NEAR(expected_speed(scene, make_particles(scene, 1'000'000)), std::sqrt(2.0 * 4.0 * 1.15), 1e-4);
+}
+
+TEST(FluidSettings, ExpectedSpeedIsOneWhereNothingMoves)
+{
+    Scene scene = falling_block();
+    scene.physics.gravity = {};
+    EXPECT_EQ(expected_speed(scene, make_particles(scene, 1'000'000)), 1.0);
+}
+
+TEST(FluidSettings, BoundsAreThoseOfTheTable)
+{
+    Scene scene = falling_block();
+    scene.particles.support_ratio = 2.0f; // S = 0.2 m
+    scene.physics.viscosity = 5.0f;
+    scene.fluids[0].rest_density = 500.0f;
+    const TimeStepBounds bounds = time_step_bounds(scene, 40.0, 4.0);
+    EXPECT_NEAR(bounds.cfl, 0.4 * 0.1 / 44.0, 1e-10);
+    EXPECT_NEAR(bounds.viscosity, 0.06 * 500.0 * 0.04 / 5.0, 1e-7);
+    EXPECT_EQ(bounds.smallest(), bounds.cfl);
+
+    scene.physics.viscosity = 0.0f;
+    EXPECT_TRUE(std::isinf(time_step_bounds(scene, 40.0, 4.0).viscosity));
+    scene.domain.wall_viscosity = 10.0f;
+    EXPECT_NEAR(time_step_bounds(scene, 40.0, 4.0).viscosity, 0.06 * 500.0 * 0.04 / 10.0, 1e-7);
+    scene.domain.walls = false;
+    EXPECT_TRUE(std::isinf(time_step_bounds(scene, 40.0, 4.0).viscosity));
+}
+
+TEST(FluidSettings, TheLightestFluidBoundsTheViscousStep)
+{
+    Scene scene = falling_block();
+    scene.physics.viscosity = 5.0f;
+    FluidBody heavy = scene.fluids[0];
+    heavy.rest_density = 3000.0f;
+    scene.fluids.insert(scene.fluids.begin(), heavy);
+    EXPECT_NEAR(time_step_bounds(scene, 40.0, 4.0).viscosity, 0.06 * 1000.0 * 0.04 / 5.0, 1e-7);
+}
+
+TEST(FluidSettings, AutomaticStepKeepsTheCflBoundAndDividesAFrame)
+{
+    Scene scene = falling_block();
+    for (const float frame_rate : {24.0f, 60.0f, 333.0f, 5000.0f}) {
+        scene.time.frame_rate = frame_rate;
+        const double speed = expected_speed(scene, make_particles(scene, 1'000'000));
+        const double bound = time_step_bounds(scene, 10.0 * speed, speed).cfl;
+        EXPECT_LE(dt_of(scene), bound * (1.0 + 1e-6)) << frame_rate;
+        const double steps = steps_in_a_frame(scene);
+        EXPECT_NEAR(steps, std::round(steps), 1e-4 * steps) << frame_rate;
+        EXPECT_GT(1.0 / ((steps - 1.0) * static_cast<double>(frame_rate)), steps > 1.5 ? bound : 0.0)
+            << "a larger step would do at " << frame_rate;
+        EXPECT_TRUE(settings_of(scene).warnings.empty()) << frame_rate;
+    }
+}
+
+TEST(FluidSettings, AutomaticStepKeepsTheViscousBound)
+{
+    Scene scene = falling_block();
+    scene.physics.viscosity = 10'000.0f;
+    const double bound = 0.06 * 1000.0 * 0.04 / 10'000.0;
+    EXPECT_LE(dt_of(scene), bound * (1.0 + 1e-6));
+    EXPECT_GT(dt_of(scene), 0.9 * bound);
+    EXPECT_TRUE(settings_of(scene).warnings.empty());
+}
+
+TEST(FluidSettings, ASoftFluidIsStillBoundByItsOwnSpeed)
+{
+    Scene scene = falling_block();
+    scene.physics.speed_of_sound = 0.5f; // far below the 4.75 m/s of its fall
+    EXPECT_EQ(settings_of(scene).simulation.params.speed_of_sound, 0.5f);
+    EXPECT_LE(dt_of(scene), 0.4 * 0.1 / (0.5 + std::sqrt(2.0 * 9.81 * 1.15)));
+}
+
+TEST(FluidSettings, WarnsOfAStepAboveABoundAndNamesIt)
+{
+    Scene scene = falling_block();
+    scene.time.dt = 0.005f;
+    std::vector<std::string> warnings = settings_of(scene).warnings;
+    ASSERT_EQ(warnings.size(), 1u);
+    EXPECT_NE(warnings[0].find("time.dt is 0.005 s, above the CFL bound of 0.0007655 s"), std::string::npos)
+        << warnings[0];
+
+    scene.physics.viscosity = 1000.0f;
+    warnings = settings_of(scene).warnings;
+    ASSERT_EQ(warnings.size(), 2u);
+    EXPECT_NE(warnings[1].find("above the viscous bound of 0.0024 s (viscosity 1000 Pa s)"), std::string::npos)
+        << warnings[1];
+
+    scene.time.dt = 0.0005f;
+    EXPECT_TRUE(settings_of(scene).warnings.empty());
+    EXPECT_EQ(settings_of(scene).simulation.params.dt, 0.0005f);
+}
+
+std::string refusal(const Scene& scene)
+{
+    try {
+        static_cast<void>(settings_of(scene));
+    } catch (const Error& error) {
+        EXPECT_EQ(error.kind(), ErrorKind::Input);
+        return error.what();
+    }
+    return "";
+}
+
+TEST(FluidSettings, RefusesAStepLongerThanAFrame)
+{
+    Scene scene = falling_block();
+    scene.time.dt = 0.05f;
+    EXPECT_EQ(refusal(scene), "falling: time.dt is 0.05 s, longer than a frame of 0.0166667 s (time.frame_rate 60)");
+}
+
+TEST(FluidSettings, RefusesMoreStepsThanCanBeCounted)
+{
+    Scene scene = falling_block();
+    scene.time.dt = 1e-9f;
+    scene.time.frames = 1000; // 16.65 s
+    EXPECT_EQ(refusal(scene),
+              "falling: 1000 frames at a dt of 1e-09 s are 1.67e+10 steps, more than 4294967294: choose "
+              "fewer frames or a larger time.dt");
+}
+
+TEST(FluidSettings, MapsTheScene)
+{
+    Scene scene = falling_block();
+    scene.kernel = SphKernel::Wendland;
+    scene.particles.support_ratio = 3.0f;
+    scene.physics.state_equation = StateEquation::Linear;
+    scene.physics.clamp_pressure = false;
+    scene.physics.surface_tension = 0.1f;
+    scene.domain.walls = false;
+    scene.fluids[0].rest_density = 800.0f;
+    FluidBody second = scene.fluids[0];
+    second.rest_density = 1200.0f;
+    scene.fluids.push_back(second);
+    const sim::SimulationSettings settings = settings_of(scene).simulation;
+    EXPECT_EQ(settings.options.kernel, shared::KERNEL_WENDLAND);
+    EXPECT_TRUE(settings.options.tension);
+    EXPECT_EQ(settings.params.state_equation, shared::STATE_EQUATION_LINEAR);
+    EXPECT_EQ(settings.params.clamp_pressure, 0u);
+    EXPECT_EQ(settings.params.wall_mask, 0u);
+    EXPECT_FLOAT_EQ(settings.params.support_radius, 0.3f);
+    EXPECT_EQ(settings.params.gravity, scene.physics.gravity);
+    EXPECT_EQ(settings.params.domain_max, scene.domain.max);
+    EXPECT_EQ(settings.params.rest_density[0], 800.0f);
+    EXPECT_EQ(settings.params.rest_density[1], 1200.0f);
+    // No particle may cross more than the CFL share of its support in a step.
+    EXPECT_NEAR(settings.params.speed_limit * settings.params.dt, 0.4f * 0.15f, 1e-5f);
+}
+
+} // namespace
+} // namespace meltpoint

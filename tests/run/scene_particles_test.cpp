@@ -1,0 +1,197 @@
+#include "run/scene_particles.h"
+
+#include <cmath>
+#include <numbers>
+#include <numeric>
+
+#include <gtest/gtest.h>
+
+#include "core/error.h"
+#include "support/scratch_folder.h"
+
+namespace meltpoint {
+namespace {
+
+constexpr std::uint64_t no_limit = 10'000'000;
+
+FluidBody block(const glm::vec3& min, const glm::vec3& max)
+{
+    FluidBody body;
+    body.shape = BlockShape{min, max};
+    return body;
+}
+
+/// A domain of 2 m x 2 m x 2 m around (0, 1, 0), spacing 0.1 m.
+Scene scene_of(const FluidBody& body)
+{
+    Scene scene;
+    scene.name = "test";
+    scene.particles.spacing = 0.1f;
+    scene.fluids.push_back(body);
+    return scene;
+}
+
+Scene block_scene()
+{
+    return scene_of(block({-0.5f, 0.0f, -0.5f}, {0.5f, 0.8f, 0.3f}));
+}
+
+double total_mass(const ParticleSet& particles)
+{
+    return std::accumulate(particles.mass.begin(), particles.mass.end(), 0.0);
+}
+
+std::string refusal(const Scene& scene, std::uint64_t limit = no_limit)
+{
+    try {
+        static_cast<void>(make_particles(scene, limit));
+    } catch (const Error& error) {
+        EXPECT_EQ(error.kind(), ErrorKind::Input);
+        return error.what();
+    }
+    return "";
+}
+
+TEST(SceneParticles, ABlockHasItsMassAndItsLattice)
+{
+    Scene scene = block_scene();
+    scene.fluids[0].rest_density = 700.0f;
+    const ParticleSet particles = make_particles(scene, no_limit);
+    EXPECT_EQ(particles.size(), 10u * 8u * 8u);
+    EXPECT_NEAR(total_mass(particles), 700.0 * 1.0 * 0.8 * 0.8, 1e-2);
+    for (std::size_t i = 0; i < particles.size(); ++i) {
+        ASSERT_EQ(particles.id[i], i);
+        ASSERT_EQ(shared::particle_state(particles.attributes[i]), shared::STATE_FLUID);
+        ASSERT_EQ(particles.velocity[i], glm::vec3(0.0f));
+    }
+}
+
+TEST(SceneParticles, ASphereHasTheMassOfABall)
+{
+    FluidBody body;
+    body.shape = SphereShape{{0.1f, 0.9f, 0.0f}, 0.55f};
+    const ParticleSet particles = make_particles(scene_of(body), no_limit);
+    EXPECT_NEAR(total_mass(particles), 1000.0 * 4.0 / 3.0 * std::numbers::pi * 0.55 * 0.55 * 0.55, 0.01);
+}
+
+TEST(SceneParticles, AMeshIsScaledTurnedAndPlacedByItsCenter)
+{
+    FluidBody body;
+    MeshShape mesh{.mesh = "builtin:cube"};
+    mesh.size = 0.8f;
+    mesh.position = {0.1f, 0.7f, -0.2f};
+    mesh.rotation = {0.0f, 45.0f, 0.0f};
+    body.shape = mesh;
+    const ParticleSet particles = make_particles(scene_of(body), no_limit);
+    EXPECT_NEAR(total_mass(particles), 1000.0 * 0.512, 0.002 * 512.0); // the volume is measured to 0.03 %
+    glm::dvec3 center(0.0);
+    float widest = 0.0f;
+    for (const glm::vec3& x : particles.position) {
+        center += glm::dvec3(x) / static_cast<double>(particles.size());
+        widest = std::max(widest, std::abs(x.x - 0.1f));
+        ASSERT_LE(std::abs(x.y - 0.7f), 0.4f);
+        ASSERT_LE(std::abs(x.x - 0.1f) + std::abs(x.z + 0.2f), 0.4f * std::numbers::sqrt2_v<float> + 1e-4f);
+    }
+    EXPECT_LT(glm::length(center - glm::dvec3(0.1, 0.7, -0.2)), 0.05);
+    EXPECT_GT(widest, 0.45f); // an unturned cube would end at 0.4
+}
+
+TEST(SceneParticles, VelocityIsUniformPlusLinearPlusSpin)
+{
+    Scene scene = block_scene();
+    FluidBody& body = scene.fluids[0];
+    body.velocity = {1.0f, 2.0f, 3.0f};
+    body.velocity_gradient[1][0] = 4.0f; // column y, row x: vx grows with y
+    body.spin = {0.0f, 0.0f, 5.0f};
+    body.spin_center = glm::vec3(0.1f, 0.2f, 0.3f);
+    const ParticleSet particles = make_particles(scene, no_limit);
+    for (std::size_t i = 0; i < particles.size(); ++i) {
+        const glm::vec3& x = particles.position[i];
+        const glm::vec3 expected{1.0f + 4.0f * x.y - 5.0f * (x.y - 0.2f), 2.0f + 5.0f * (x.x - 0.1f), 3.0f};
+        ASSERT_LT(glm::length(particles.velocity[i] - expected), 1e-5f) << i;
+    }
+}
+
+TEST(SceneParticles, SpinIsAboutTheBodysCenterUnlessTold)
+{
+    Scene scene = block_scene();
+    scene.fluids[0].spin = {0.0f, 2.0f, 0.0f};
+    const ParticleSet particles = make_particles(scene, no_limit);
+    glm::dvec3 momentum(0.0);
+    for (std::size_t i = 0; i < particles.size(); ++i) {
+        momentum += glm::dvec3(particles.velocity[i]) * static_cast<double>(particles.mass[i]);
+        const glm::vec3 arm = particles.position[i] - glm::vec3(0.0f, 0.4f, -0.1f);
+        ASSERT_LT(glm::length(particles.velocity[i] - glm::cross(glm::vec3(0.0f, 2.0f, 0.0f), arm)), 1e-5f);
+    }
+    EXPECT_LT(glm::length(momentum), 1e-3);
+}
+
+TEST(SceneParticles, BodiesFollowEachOtherWithTheirMaterials)
+{
+    Scene scene = scene_of(block({-1.0f, 0.0f, -1.0f}, {1.0f, 0.2f, 1.0f}));
+    FluidBody oil = block({-0.3f, 1.0f, -0.3f}, {0.3f, 1.3f, 0.3f});
+    oil.rest_density = 800.0f;
+    scene.fluids.push_back(oil);
+    FluidBody water = block({-0.3f, 1.5f, -0.3f}, {0.3f, 1.6f, 0.3f});
+    scene.fluids.push_back(water);
+    const ParticleSet particles = make_particles(scene, no_limit);
+    ASSERT_EQ(particles.size(), 800u + 108u + 36u);
+    EXPECT_EQ(shared::particle_material(particles.attributes[799]), 0u);
+    EXPECT_EQ(shared::particle_material(particles.attributes[800]), 1u);
+    EXPECT_EQ(shared::particle_material(particles.attributes[907]), 1u);
+    EXPECT_EQ(shared::particle_material(particles.attributes[908]), 0u) << "the same fluid as the first";
+    EXPECT_NEAR(static_cast<double>(particles.mass[850]), 0.8, 1e-6);
+    EXPECT_EQ(particles.id.back(), 943u);
+}
+
+TEST(SceneParticles, FluidOutsideTheDomainIsRefused)
+{
+    FluidBody body;
+    MeshShape mesh{.mesh = "builtin:cube"};
+    mesh.size = 0.8f;
+    mesh.position = {0.0f, 0.1f, 0.0f}; // a third of it below the floor
+    body.shape = mesh;
+    const std::string message = refusal(scene_of(body));
+    EXPECT_TRUE(message.starts_with("test: fluid.0 reaches outside the domain: its particles lie in [-0.3")) << message;
+}
+
+TEST(SceneParticles, TooManyParticlesAreOneSentenceWithTheLimit)
+{
+    EXPECT_EQ(refusal(block_scene(), 600), "test: about 640 particles are more than the device can hold, 600: choose a "
+                                           "larger particles.spacing than 0.1 m");
+    EXPECT_EQ(refusal(block_scene(), 640), "");
+}
+
+TEST(SceneParticles, TooManyParticlesOfAllBodiesTogether)
+{
+    Scene scene = block_scene();
+    scene.fluids.push_back(block({-0.5f, 1.0f, -0.5f}, {0.5f, 1.5f, 0.5f})); // 500 more
+    EXPECT_NE(refusal(scene, 1139).find("about 1140 particles"), std::string::npos);
+    EXPECT_EQ(refusal(scene, 1140), "");
+}
+
+TEST(SceneParticles, TooManyParticlesOfAMeshAreRefusedBeforeItIsFilled)
+{
+    FluidBody body;
+    MeshShape mesh{.mesh = "builtin:sphere"};
+    mesh.size = 1.0f;
+    mesh.position = {0.0f, 1.0f, 0.0f};
+    body.shape = mesh;
+    Scene scene = scene_of(body);
+    scene.particles.spacing = 0.0001f; // 5e11 particles
+    EXPECT_NE(refusal(scene).find("more than the device can hold, 10000000"), std::string::npos) << refusal(scene);
+}
+
+TEST(SceneParticles, MeshesThatCannotBeFilledAreRefused)
+{
+    const test::ScratchFolder folder;
+    test::write_bytes(folder / "flat.obj", "v 0 0 0\nv 1 0 0\nv 0 0 1\nf 1 2 3\n");
+    FluidBody body;
+    body.shape = MeshShape{.mesh = (folder / "flat.obj").string()};
+    EXPECT_NE(refusal(scene_of(body)).find("encloses no volume"), std::string::npos) << refusal(scene_of(body));
+    body.shape = MeshShape{.mesh = "builtin:bunny"};
+    EXPECT_NE(refusal(scene_of(body)).find("bunny"), std::string::npos);
+}
+
+} // namespace
+} // namespace meltpoint
