@@ -156,6 +156,20 @@ TEST(FluidSettings, WarnsOfAStepAboveABoundAndNamesIt)
     EXPECT_EQ(settings_of(scene).simulation.params.dt, 0.0005f);
 }
 
+TEST(FluidSettings, WarnsWhereThePapersKernelsNeedMoreViscosity)
+{
+    Scene scene = falling_block();
+    EXPECT_TRUE(settings_of(scene).warnings.empty());
+    scene.kernel = SphKernel::Paper;
+    const std::vector<std::string> warnings = settings_of(scene).warnings;
+    ASSERT_EQ(warnings.size(), 1u);
+    // 0.005 rho c0 d
+    EXPECT_NE(warnings[0].find("physics.viscosity is 0.01 Pa s; below about 24 Pa s"), std::string::npos)
+        << warnings[0];
+    scene.physics.viscosity = 24.0f;
+    EXPECT_TRUE(settings_of(scene).warnings.empty());
+}
+
 std::string refusal(const Scene& scene)
 {
     try {
