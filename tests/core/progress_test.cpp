@@ -10,6 +10,8 @@
 
 #include <gtest/gtest.h>
 
+#include "core/log.h"
+
 namespace meltpoint {
 namespace {
 
@@ -53,28 +55,21 @@ TEST(Progress, QuietWritesNothing)
     EXPECT_EQ(testing::internal::GetCapturedStderr(), "");
 }
 
-TEST(Progress, DrawsABarOnATerminalAndClearsIt)
+/// What a function writes to stderr while that is a terminal.
+template <class Function>
+std::string written_to_terminal(const Function& function)
 {
     const int terminal = posix_openpt(O_RDWR | O_NOCTTY);
-    ASSERT_GE(terminal, 0);
-    ASSERT_EQ(grantpt(terminal), 0);
-    ASSERT_EQ(unlockpt(terminal), 0);
+    EXPECT_GE(terminal, 0);
+    EXPECT_EQ(grantpt(terminal), 0);
+    EXPECT_EQ(unlockpt(terminal), 0);
     const int slave = open(ptsname(terminal), O_RDWR | O_NOCTTY);
-    ASSERT_GE(slave, 0);
+    EXPECT_GE(slave, 0);
     const int real_stderr = dup(STDERR_FILENO);
     dup2(slave, STDERR_FILENO);
-    constexpr int ITEMS = 30;
-    const auto start = std::chrono::steady_clock::now();
-    {
-        Progress progress("frame", ITEMS, false);
-        for (int i = 0; i < ITEMS; ++i) {
-            progress.advance();
-        }
-    }
-    const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    function();
     dup2(real_stderr, STDERR_FILENO);
     close(real_stderr);
-
     close(slave); // then reading ends after the last byte
 
     std::string output;
@@ -83,6 +78,20 @@ TEST(Progress, DrawsABarOnATerminalAndClearsIt)
         output.append(buffer.data(), static_cast<std::size_t>(length));
     }
     close(terminal);
+    return output;
+}
+
+TEST(Progress, DrawsABarOnATerminalAndClearsIt)
+{
+    constexpr int ITEMS = 30;
+    const auto start = std::chrono::steady_clock::now();
+    const std::string output = written_to_terminal([] {
+        Progress progress("frame", ITEMS, false);
+        for (int i = 0; i < ITEMS; ++i) {
+            progress.advance();
+        }
+    });
+    const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
     ASSERT_GE(output.size(), 4u);
     EXPECT_EQ(output.find("\r\x1b[Kframe [                        ] 1/30"), 0u);
     EXPECT_EQ(output.rfind("\r\x1b[K"), output.size() - 4);
@@ -90,6 +99,21 @@ TEST(Progress, DrawsABarOnATerminalAndClearsIt)
     const auto drawn =
         std::ranges::count(output, '[') - std::ranges::count(output, 'K'); // brackets, less those of the clearing
     EXPECT_LE(static_cast<double>(drawn), 1.0 + 10.0 * seconds);
+}
+
+TEST(Progress, ALogLineClearsTheBarAndTheBarComesBack)
+{
+    const std::string output = written_to_terminal([] {
+        Progress progress("frame", 3, false);
+        progress.advance();
+        log_warning("beware");
+        progress.advance();
+    });
+    const std::size_t warning = output.find("\r\x1b[Kwarning: beware\r\n"); // the terminal makes \n a new line
+    ASSERT_NE(warning, std::string::npos) << output;
+    EXPECT_LT(output.find(" 1/3"), warning);
+    EXPECT_NE(output.find("\r\x1b[Kframe [", warning + 4), std::string::npos) << output;
+    EXPECT_NE(output.find(" 2/3", warning), std::string::npos) << output;
 }
 
 } // namespace

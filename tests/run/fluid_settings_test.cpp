@@ -188,6 +188,17 @@ TEST(FluidSettings, RefusesAStepLongerThanAFrame)
     EXPECT_EQ(refusal(scene), "falling: time.dt is 0.05 s, longer than a frame of 0.0166667 s (time.frame_rate 60)");
 }
 
+TEST(FluidSettings, RefusesWallsCloserThanTwoSupportRadii)
+{
+    Scene scene = falling_block();
+    scene.domain.min.z = -0.19f;
+    scene.domain.max.z = 0.19f;
+    scene.fluids[0].shape = BlockShape{glm::vec3(-0.1f, 0.1f, -0.1f), glm::vec3(0.1f, 0.3f, 0.1f)};
+    EXPECT_NE(refusal(scene).find("0.38 m wide along z"), std::string::npos) << refusal(scene);
+    scene.domain.walls = false;
+    EXPECT_EQ(refusal(scene), "");
+}
+
 TEST(FluidSettings, RefusesMoreStepsThanCanBeCounted)
 {
     Scene scene = falling_block();
