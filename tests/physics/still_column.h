@@ -73,9 +73,11 @@ public:
     }
 
     struct Profile {
+        [[nodiscard]] double largest_energy() const { return *std::max_element(energy.begin(), energy.end()); }
+
         double pressure_error = 0.0; ///< L2 of the difference / L2 of rho g (depth - y), of averages over time
         double depth = 0.0;          ///< twice the center of mass's height, m, average over time
-        double energy = 0.0;         ///< largest kinetic energy / rho g h V
+        std::vector<double> energy;  ///< kinetic energy / rho g h V, of each sample
     };
 
     /// Averages over so many seconds.
@@ -89,7 +91,7 @@ public:
                 height[i] += static_cast<double>(set.position[i].y) / samples;
                 pressure[i] += static_cast<double>(set.pressure[i]) / samples;
             }
-            result.energy = std::max(result.energy, kinetic_energy(set) / weight_energy());
+            result.energy.push_back(kinetic_energy(set) / weight_energy());
         });
         double error = 0.0;
         double exact_squared = 0.0;
