@@ -62,9 +62,32 @@ void refuse_special(const std::filesystem::path& path)
     }
 }
 
+/// Two outputs of one name would replace each other.
+void refuse_twins(const Scene& scene, const RunOptions& options)
+{
+    const auto normal = [](const std::filesystem::path& path) {
+        return std::filesystem::absolute(path).lexically_normal();
+    };
+    if (options.stats.empty()) {
+        return;
+    }
+    const std::filesystem::path stats = normal(options.stats);
+    bool is_taken = !options.video.empty() && stats == normal(options.video);
+    if (stats.parent_path() == normal(options.out / "any").parent_path()) {
+        for (std::uint32_t frame = 0; frame < scene.time.frames && !is_taken; ++frame) {
+            is_taken = stats.filename() == frame_path(options, frame).filename() ||
+                       (options.particles && stats.filename() == particles_path(options, frame).filename());
+        }
+    }
+    if (is_taken) {
+        throw input_error("--stats {}: another output of this run has that name", options.stats.string());
+    }
+}
+
 /// Throws where existing output stands in the way. Changes nothing.
 void check_output(const Scene& scene, const RunOptions& options)
 {
+    refuse_twins(scene, options);
     for (const std::filesystem::path& file : {options.video, options.stats}) {
         if (!file.empty()) {
             refuse_special(file);

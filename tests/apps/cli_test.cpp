@@ -265,6 +265,8 @@ TEST_F(Cli, BadInputIsOneSentenceAndExitsWithTwo)
         {{"drop", "--device", "nonsense"}, "no device is named like \"nonsense\""},
         {{"drop", "--device", "99"}, "there is no device 99"},
         {{"drop", "--video", "x.gif", "--set", "particles.spacing=0.1"}, "none of .mp4, .mkv, .mov"},
+        {{"drop", "--stats", "x.mp4", "--video", "./x.mp4"}, "another output of this run has that name"},
+        {{"drop", "--stats", "out/drop/frame_0003.png"}, "another output of this run has that name"},
         {{"drop", "--stats", "folder"}, "folder is a folder"},
         {{"drop", "--stats", "/dev/full", "--force"}, "not a file"},
     };
@@ -274,6 +276,7 @@ TEST_F(Cli, BadInputIsOneSentenceAndExitsWithTwo)
         SCOPED_TRACE(testing::PrintToString(arguments));
         expect_one_sentence(run(arguments), 2, part);
     }
+    EXPECT_FALSE(fs::exists(path("out")) && !fs::is_empty(path("out/drop")));
     EXPECT_TRUE(fs::exists("/dev/full") && !fs::is_regular_file("/dev/full"));
 }
 
