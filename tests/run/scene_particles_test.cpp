@@ -162,6 +162,14 @@ TEST(SceneParticles, TooManyParticlesAreOneSentenceWithTheLimit)
     EXPECT_EQ(refusal(block_scene(), 640), "");
 }
 
+TEST(SceneParticles, TooManyParticlesAreRefusedWhereTheEstimateIsLow)
+{
+    // 614.4 by volume, 640 on the lattice, whose spacing shrinks to fit.
+    const Scene scene = scene_of(block({-0.48f, 0.0f, -0.5f}, {0.48f, 0.8f, 0.3f}));
+    EXPECT_NE(refusal(scene, 639).find("about 640 particles"), std::string::npos) << refusal(scene, 639);
+    EXPECT_EQ(refusal(scene, 640), "");
+}
+
 TEST(SceneParticles, TooManyParticlesOfAllBodiesTogether)
 {
     Scene scene = block_scene();
