@@ -21,6 +21,8 @@ template <class... Fs>
 struct Overloaded : Fs... {
     using Fs::operator()...;
 };
+template <class... Fs>
+Overloaded(Fs...) -> Overloaded<Fs...>; // which clang 16 does not deduce by itself
 
 /// Scaled to its size, turned about its center, its center put in its place.
 TriangleMesh placed_mesh(const MeshShape& shape)
