@@ -1,9 +1,9 @@
 #!/usr/bin/env bash
 # Changes one constant, sign or barrier at a time in a scratch copy of the source, and requires that a test goes red.
 #
-#   tests/mutate.sh [--list] [--only N]...
+#   tests/mutate.sh [--list] [--check] [--only N]...
 #
-# The scratch copy and its build are build/mutations; the source itself is never touched. A mutation fails if no test
+# --check only sees whether every mutation fits the source, in a second. The scratch copy and its build are build/mutations; the source itself is never touched. A mutation fails if no test
 # notices it, if its original text is not in the file exactly once, or if the mutated source does not build.
 set -euo pipefail
 # shellcheck source=apps/setup.sh
@@ -336,21 +336,31 @@ run_tests() {
     timeout 300 "$build_dir/tests/$1" --gtest_filter="$2" --gtest_fail_fast --gtest_brief=1 >"$log" 2>&1 </dev/null
 }
 
-# replace FILE ORIGINAL REPLACEMENT: fails unless the original is there exactly once.
-replace() {
+# fits FILE ORIGINAL: whether the original is there exactly once.
+fits() {
     local text rest
+    [ -f "$1" ] || return 1
     text=$(<"$1")
     rest=${text#*"$2"}
-    [[ "$rest" != "$text" && "$rest" != *"$2"* ]] || return 1
+    [[ "$rest" != "$text" && "$rest" != *"$2"* ]]
+}
+
+# replace FILE ORIGINAL REPLACEMENT
+replace() {
+    local text
+    text=$(<"$1")
     printf '%s\n' "${text/"$2"/"$3"}" >"$1"
 }
 
 # try N: applies mutation N to the scratch copy and says in `verdict` who noticed. Fails if nobody did.
 try() {
     local file=$source_dir/${files[$1]}
-    if ! { [ -f "$file" ] && replace "$file" "${originals[$1]}" "${replacements[$1]}"; }; then
+    if ! fits "$file" "${originals[$1]}"; then
         verdict="DOES NOT APPLY: its original text is not in ${files[$1]} exactly once"
-    elif ! rebuild "${programs[$1]}"; then
+        return 1
+    fi
+    replace "$file" "${originals[$1]}" "${replacements[$1]}"
+    if ! rebuild "${programs[$1]}"; then
         verdict="DOES NOT BUILD: $(grep -m 1 -i error "$log")"
     elif run_tests "${programs[$1]}" "${filters[$1]}"; then
         verdict="SURVIVED ${filters[$1]}"
@@ -371,12 +381,23 @@ while [ $# -gt 0 ]; do
             done
             exit 0
             ;;
+        --check)
+            missed=0
+            for n in "${!descriptions[@]}"; do
+                fits "${files[n]}" "${originals[n]}" || {
+                    echo "mutation $n, \"${descriptions[n]}\": its original text is not in ${files[n]} exactly once"
+                    missed=$((missed + 1))
+                }
+            done
+            echo "${#descriptions[@]} mutations, $missed do not fit the source"
+            exit $((missed > 0))
+            ;;
         --only)
             [[ ${2:-} =~ ^[0-9]+$ && $2 -lt ${#descriptions[@]} ]] || fail "--only takes a number that --list shows"
             chosen+=("$2")
             shift
             ;;
-        *) fail "unknown argument '$1': --list and --only N are the only ones" ;;
+        *) fail "unknown argument '$1': --list, --check and --only N are the only ones" ;;
     esac
     shift
 done
