@@ -200,7 +200,7 @@ mutation "neighbors: velocities are not moved into the sorted order" \
 mutation "density: in terms of the rest density's mass instead of the particle's" \
     shaders/sim/density.comp \
     'position[i].w * params.density_scale' \
-    'position[first].w * params.density_scale' \
+    'position[tile.first].w * params.density_scale' \
     conformance_tests 'MaterialConformance.TwoRestDensities'
 mutation "state equation: Tait without its exponent in the stiffness" \
     shaders/sim/density.comp \
