@@ -2,83 +2,44 @@
 
 #include <algorithm>
 #include <array>
-#include <cctype>
-#include <fstream>
 #include <span>
 #include <string>
 #include <string_view>
-#include <system_error>
 
 #include <assimp/BaseImporter.h>
 #include <assimp/Importer.hpp>
 #include <assimp/MemoryIOWrapper.h>
 #include <assimp/importerdesc.h>
 #include <assimp/scene.h>
-#include <fmt/ranges.h>
 
 #include "core/error.h"
 #include "geometry/polygon_triangulation.h"
+#include "io/gltf_reduce.h"
+#include "io/input_file.h"
+#include "io/mesh_limits.h"
+#include "io/obj_reduce.h"
+#include "io/off_read.h"
+#include "io/ply_read.h"
+#include "io/stl_read.h"
 
 namespace meltpoint {
 
 namespace {
 
-constexpr std::array<std::string_view, 1> supported_extensions = {"obj"};
-constexpr std::uintmax_t largest_file = std::uintmax_t{2} << 30; // bytes
-constexpr unsigned most_polygon_corners = 4096;                  // triangulation takes the square of their number
-constexpr std::size_t most_triangles = 200'000'000;
-constexpr int deepest_node = 1000;
+// --- OBJ and glTF: assimp, fed with what was checked and reduced to the surface
+// ------------------------------------------
 
-std::string lower_extension(const std::filesystem::path& path)
-{
-    std::string extension = path.extension().string();
-    extension.erase(0, std::min<std::size_t>(extension.size(), 1)); // the dot
-    std::transform(extension.begin(), extension.end(), extension.begin(),
-                   [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-    return extension;
-}
+constexpr std::array<std::string_view, 2> importer_names = {"Wavefront Object Importer", "glTF2 Importer"};
+constexpr int deepest_node = 1100; // gltf_reduce.h allows 1000, below which assimp may put some of its own
 
-/// The whole file. Only regular files: a directory cannot be read, and a pipe or device might never end.
-std::vector<std::uint8_t> read_file(const std::filesystem::path& path)
-{
-    std::error_code error;
-    const std::filesystem::file_status status = std::filesystem::status(path, error);
-    if (!std::filesystem::exists(status)) {
-        throw input_error("{}: there is no such file", path.string());
-    }
-    if (std::filesystem::is_directory(status)) {
-        throw input_error("{}: this is a directory, not a mesh file", path.string());
-    }
-    if (!std::filesystem::is_regular_file(status)) {
-        throw input_error("{}: this is not a regular file", path.string());
-    }
-    const std::uintmax_t size = std::filesystem::file_size(path, error);
-    if (error) {
-        throw input_error("{}: cannot be read ({})", path.string(), error.message());
-    }
-    if (size == 0) {
-        throw input_error("{}: the file is empty", path.string());
-    }
-    if (size > largest_file) {
-        throw input_error("{}: the file has {} bytes, at most {} are supported", path.string(), size, largest_file);
-    }
-    std::vector<std::uint8_t> bytes(size);
-    std::ifstream file(path, std::ios::binary);
-    if (!file.read(reinterpret_cast<char*>(bytes.data()), static_cast<std::streamsize>(size))) {
-        throw input_error("{}: cannot be read", path.string());
-    }
-    return bytes;
-}
-
-/// Leaves only the importers of the supported formats: a crafted file cannot reach the parser of another one.
+/// Leaves only the importers that are needed: a crafted file cannot reach the parser of another format.
 void keep_supported_importers(Assimp::Importer& importer)
 {
     for (std::size_t i = importer.GetImporterCount(); i-- > 0;) {
         const aiImporterDesc* description = importer.GetImporterInfo(i);
         Assimp::BaseImporter* loader = importer.GetImporter(i);
-        const std::string_view extensions = description != nullptr ? description->mFileExtensions : "";
-        if (std::find(supported_extensions.begin(), supported_extensions.end(), extensions) ==
-            supported_extensions.end()) {
+        const std::string_view name = description != nullptr ? description->mName : "";
+        if (std::find(importer_names.begin(), importer_names.end(), name) == importer_names.end()) {
             importer.UnregisterLoader(loader);
             delete loader; // unregistering hands it over
         }
@@ -135,9 +96,7 @@ void append_node(TriangleMesh& whole, const aiScene& scene, const aiNode& node, 
     const glm::mat4 placement = parent * to_glm(node.mTransformation);
     for (unsigned i = 0; i < node.mNumMeshes; ++i) {
         const aiMesh& part = *scene.mMeshes[node.mMeshes[i]];
-        if (whole.triangles.size() + part.mNumFaces > most_triangles) {
-            throw input_error("{}: the mesh has more than {} triangles", name, most_triangles);
-        }
+        check_triangles(whole.triangles.size() + part.mNumFaces, name);
         append(whole, part, placement);
     }
     for (unsigned i = 0; i < node.mNumChildren; ++i) {
@@ -151,10 +110,7 @@ void check_faces(const aiScene& scene, const std::string& name)
     for (unsigned i = 0; i < scene.mNumMeshes; ++i) {
         const aiMesh& part = *scene.mMeshes[i];
         for (const aiFace& face : std::span(part.mFaces, part.mNumFaces)) {
-            if (face.mNumIndices > most_polygon_corners) {
-                throw input_error("{}: a polygon has {} corners, at most {} are supported", name, face.mNumIndices,
-                                  most_polygon_corners);
-            }
+            check_corners(face.mNumIndices, name);
             for (const unsigned index : std::span(face.mIndices, face.mNumIndices)) {
                 if (index >= part.mNumVertices) {
                     throw input_error("{}: a face names vertex {} of {}", name, index, part.mNumVertices);
@@ -175,23 +131,13 @@ std::string reason(const char* message)
     return text.empty() ? "unknown reason" : text;
 }
 
-} // namespace
-
-TriangleMesh import_mesh(const std::filesystem::path& path)
+TriangleMesh read_through_assimp(const std::vector<std::uint8_t>& bytes, const char* extension, const std::string& name)
 {
-    const std::string name = path.string();
-    const std::string extension = lower_extension(path);
-    const std::vector<std::uint8_t> bytes = read_file(path);
-    if (std::find(supported_extensions.begin(), supported_extensions.end(), extension) == supported_extensions.end()) {
-        throw input_error("{}: meshes are read from files that end in .{}, not in \"{}\"", name,
-                          fmt::join(supported_extensions, ", ."), path.extension().string());
-    }
-
     Assimp::Importer importer;
     keep_supported_importers(importer);
-    // The importer sees this one file, from memory: whatever else the file names, it cannot open.
+    // The importer sees these bytes alone: whatever else they may name, it cannot open.
     importer.SetIOHandler(new Assimp::MemoryIOSystem(bytes.data(), bytes.size(), nullptr));
-    const aiScene* scene = importer.ReadFile(AI_MEMORYIO_MAGIC_FILENAME "." + extension, 0);
+    const aiScene* scene = importer.ReadFile(std::string(AI_MEMORYIO_MAGIC_FILENAME ".") + extension, 0);
     if (scene == nullptr) {
         throw input_error("{}: cannot be read as a mesh ({})", name, reason(importer.GetErrorString()));
     }
@@ -199,13 +145,80 @@ TriangleMesh import_mesh(const std::filesystem::path& path)
         throw input_error("{}: the file holds no mesh", name);
     }
     check_faces(*scene, name);
-
     TriangleMesh mesh;
     append_node(mesh, *scene, *scene->mRootNode, glm::mat4(1.0f), 0, name);
-    validate(mesh, name);
-    mesh = weld(mesh);
-    validate(mesh, name);
     return mesh;
+}
+
+// --- the formats
+// -----------------------------------------------------------------------------------------------------------
+
+using Bytes = std::span<const std::uint8_t>;
+
+TriangleMesh read_obj(Bytes bytes, const std::filesystem::path& path)
+{
+    return read_through_assimp(reduce_obj(bytes, path.string()), "obj", path.string());
+}
+
+TriangleMesh read_gltf(Bytes bytes, const std::filesystem::path& path)
+{
+    return read_through_assimp(reduce_gltf(bytes, path), "glb", path.string());
+}
+
+TriangleMesh read_ply_mesh(Bytes bytes, const std::filesystem::path& path)
+{
+    PlyContent content = read_ply(bytes, path.string());
+    if (content.triangles.empty()) {
+        throw input_error("{}: the file holds {} points, but no faces", path.string(), content.positions.size());
+    }
+    return {std::move(content.positions), std::move(content.triangles), std::move(content.normals)};
+}
+
+struct Format {
+    std::string_view extension;
+    TriangleMesh (*read)(Bytes, const std::filesystem::path&);
+};
+
+constexpr std::array<Format, 6> formats{{{"obj", read_obj},
+                                         {"ply", read_ply_mesh},
+                                         {"stl",
+                                          [](Bytes bytes, const std::filesystem::path& path) {
+                                              return read_stl(bytes, path.string());
+                                          }},
+                                         {"gltf", read_gltf},
+                                         {"glb", read_gltf},
+                                         {"off", [](Bytes bytes, const std::filesystem::path& path) {
+                                              return read_off(bytes, path.string());
+                                          }}}};
+
+const Format& format_of(const std::filesystem::path& path)
+{
+    const std::string extension = lower_extension(path);
+    const auto* const format =
+        std::find_if(formats.begin(), formats.end(), [&](const Format& each) { return each.extension == extension; });
+    if (format == formats.end()) {
+        throw input_error(
+            "{}: meshes are read from files that end in .obj, .ply, .stl, .gltf, .glb or .off, not in \"{}\"",
+            path.string(), path.extension().string());
+    }
+    return *format;
+}
+
+} // namespace
+
+TriangleMesh parse_mesh(std::span<const std::uint8_t> bytes, const std::filesystem::path& path)
+{
+    TriangleMesh mesh = format_of(path).read(bytes, path);
+    validate(mesh, path.string());
+    mesh = weld(mesh);
+    validate(mesh, path.string());
+    return mesh;
+}
+
+TriangleMesh import_mesh(const std::filesystem::path& path)
+{
+    const std::vector<std::uint8_t> bytes = read_input_file(path);
+    return parse_mesh(bytes, path);
 }
 
 } // namespace meltpoint
