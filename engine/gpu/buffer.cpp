@@ -31,7 +31,7 @@ VkMemoryPropertyFlags preferred_properties(MemoryUse use)
 
 } // namespace
 
-Buffer::Buffer(const Context& context, VkDeviceSize bytes, MemoryUse use, const std::string& name)
+Buffer::Buffer(const Context& context, VkDeviceSize bytes, MemoryUse use, const std::string& name, VkFormat texels)
     : context_(&context), size_(std::max<VkDeviceSize>(bytes, 16)), use_(use), name_(name)
 {
     if (size_ > context.limits().maxStorageBufferRange) {
@@ -44,6 +44,7 @@ Buffer::Buffer(const Context& context, VkDeviceSize bytes, MemoryUse use, const 
         info.size = size_;
         info.usage = VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_SRC_BIT |
                      VK_BUFFER_USAGE_TRANSFER_DST_BIT | VK_BUFFER_USAGE_INDIRECT_BUFFER_BIT;
+        info.usage |= texels != VK_FORMAT_UNDEFINED ? VK_BUFFER_USAGE_UNIFORM_TEXEL_BUFFER_BIT : 0;
         check(context.vk.vkCreateBuffer(context.device(), &info, nullptr, &buffer_), "creating a buffer");
         context.set_name(VK_OBJECT_TYPE_BUFFER, reinterpret_cast<std::uint64_t>(buffer_), name); // NOLINT
 
@@ -59,6 +60,13 @@ Buffer::Buffer(const Context& context, VkDeviceSize bytes, MemoryUse use, const 
                                static_cast<double>(needs.size) / mebibyte, name);
         }
         check(context.vk.vkBindBufferMemory(context.device(), buffer_, memory_, 0), "binding a buffer to its memory");
+        if (texels != VK_FORMAT_UNDEFINED) {
+            VkBufferViewCreateInfo view{VK_STRUCTURE_TYPE_BUFFER_VIEW_CREATE_INFO};
+            view.buffer = buffer_;
+            view.format = texels;
+            view.range = VK_WHOLE_SIZE;
+            check(context.vk.vkCreateBufferView(context.device(), &view, nullptr, &texels_), "creating a texel buffer");
+        }
         if (use != MemoryUse::Device) {
             check(context.vk.vkMapMemory(context.device(), memory_, 0, VK_WHOLE_SIZE, 0, &mapped_), "mapping a buffer");
         }
@@ -85,6 +93,7 @@ Buffer& Buffer::operator=(Buffer&& other) noexcept
         context_ = std::exchange(other.context_, nullptr);
         buffer_ = std::exchange(other.buffer_, VK_NULL_HANDLE);
         memory_ = std::exchange(other.memory_, VK_NULL_HANDLE);
+        texels_ = std::exchange(other.texels_, VK_NULL_HANDLE);
         size_ = std::exchange(other.size_, 0);
         use_ = other.use_;
         mapped_ = std::exchange(other.mapped_, nullptr);
@@ -99,10 +108,12 @@ void Buffer::release() noexcept
     if (context_ == nullptr) {
         return;
     }
+    context_->vk.vkDestroyBufferView(context_->device(), texels_, nullptr);
     context_->vk.vkDestroyBuffer(context_->device(), buffer_, nullptr);
     context_->vk.vkFreeMemory(context_->device(), memory_, nullptr);
     buffer_ = VK_NULL_HANDLE;
     memory_ = VK_NULL_HANDLE;
+    texels_ = VK_NULL_HANDLE;
 }
 
 } // namespace meltpoint::gpu

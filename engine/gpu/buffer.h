@@ -30,12 +30,19 @@ public:
     Buffer() = default;
     /// Allocates `bytes` (at least 16). Throws Device when the device's storage buffer range or its memory does not
     /// allow it.
-    Buffer(const Context& context, VkDeviceSize bytes, MemoryUse use, const std::string& name);
+    Buffer(const Context& context, VkDeviceSize bytes, MemoryUse use, const std::string& name)
+        : Buffer(context, bytes, use, name, VK_FORMAT_UNDEFINED)
+    {
+    }
+    /// With a format other than VK_FORMAT_UNDEFINED, shaders may also read it as a texel buffer of that format.
+    Buffer(const Context& context, VkDeviceSize bytes, MemoryUse use, const std::string& name, VkFormat texels);
     ~Buffer();
     Buffer(Buffer&& other) noexcept;
     Buffer& operator=(Buffer&& other) noexcept;
 
     [[nodiscard]] VkBuffer handle() const { return buffer_; }
+    /// As a texel buffer; VK_NULL_HANDLE for buffers made without a format.
+    [[nodiscard]] VkBufferView texels() const { return texels_; }
     [[nodiscard]] VkDeviceSize size() const { return size_; }
     [[nodiscard]] MemoryUse use() const { return use_; }
     [[nodiscard]] const std::string& name() const { return name_; }
@@ -56,6 +63,7 @@ private:
     const Context* context_ = nullptr;
     VkBuffer buffer_ = VK_NULL_HANDLE;
     VkDeviceMemory memory_ = VK_NULL_HANDLE;
+    VkBufferView texels_ = VK_NULL_HANDLE;
     VkDeviceSize size_ = 0;
     MemoryUse use_ = MemoryUse::Device;
     void* mapped_ = nullptr;
@@ -68,6 +76,12 @@ template <class T>
 [[nodiscard]] Buffer make_buffer(const Context& context, std::size_t count, const std::string& name)
 {
     return {context, count * sizeof(T), MemoryUse::Device, name};
+}
+
+/// A device buffer of `count` vec4 that shaders may also read as a texel buffer.
+[[nodiscard]] inline Buffer make_texel_buffer(const Context& context, std::size_t count, const std::string& name)
+{
+    return {context, count * 4 * sizeof(float), MemoryUse::Device, name, VK_FORMAT_R32G32B32A32_SFLOAT};
 }
 
 } // namespace meltpoint::gpu

@@ -175,6 +175,7 @@ void Commands::bind(const Kernel& kernel, std::span<const std::byte> push, std::
     }
 
     std::array<VkDescriptorBufferInfo, max_bindings> buffers{};
+    std::array<VkBufferView, max_bindings> views{};
     std::array<VkWriteDescriptorSet, max_bindings> writes{};
     for (std::size_t i = 0; i < bindings.size(); ++i) {
         const Binding& binding = bindings[i];
@@ -183,8 +184,15 @@ void Commands::bind(const Kernel& kernel, std::span<const std::byte> push, std::
                 fmt::format("kernel {}: the access declared for binding {} (buffer {}) is not the shader's",
                             kernel.name(), shader.bindings[i].binding, binding.buffer->name()));
         }
+        const VkDescriptorType type = shader.bindings[i].type;
+        const bool as_texels = type == VK_DESCRIPTOR_TYPE_UNIFORM_TEXEL_BUFFER;
+        if (as_texels && binding.buffer->texels() == VK_NULL_HANDLE) {
+            throw std::logic_error(fmt::format("kernel {} reads buffer {} as texels, but it was made without a format",
+                                               kernel.name(), binding.buffer->name()));
+        }
         VkAccessFlags2 access = 0;
-        access |= binding.access != Access::Write ? VK_ACCESS_2_SHADER_STORAGE_READ_BIT : 0;
+        access |= as_texels ? VK_ACCESS_2_SHADER_SAMPLED_READ_BIT : 0;
+        access |= !as_texels && binding.access != Access::Write ? VK_ACCESS_2_SHADER_STORAGE_READ_BIT : 0;
         access |= binding.access != Access::Read ? VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT : 0;
         use(*binding.buffer, VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT, access, binding.access != Access::Read);
 
@@ -192,8 +200,10 @@ void Commands::bind(const Kernel& kernel, std::span<const std::byte> push, std::
         writes[i] = {VK_STRUCTURE_TYPE_WRITE_DESCRIPTOR_SET};
         writes[i].dstBinding = shader.bindings[i].binding;
         writes[i].descriptorCount = 1;
-        writes[i].descriptorType = VK_DESCRIPTOR_TYPE_STORAGE_BUFFER;
+        writes[i].descriptorType = type;
         writes[i].pBufferInfo = &buffers[i];
+        views[i] = binding.buffer->texels();
+        writes[i].pTexelBufferView = &views[i];
     }
     const VolkDeviceTable& vk = context_->vk;
     vk.vkCmdBindPipeline(buffer_, VK_PIPELINE_BIND_POINT_COMPUTE, kernel.pipeline());

@@ -49,6 +49,12 @@ ShaderInterface reflect(std::span<const std::uint32_t> spirv)
     for (const auto& resource : resources.sampled_images) {
         add(resource, VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, ShaderAccess::Read);
     }
+    for (const auto& resource : resources.separate_images) {
+        if (compiler.get_type(resource.base_type_id).image.dim != spv::DimBuffer) {
+            throw std::logic_error("a shader reads an image without a sampler: " + resource.name);
+        }
+        add(resource, VK_DESCRIPTOR_TYPE_UNIFORM_TEXEL_BUFFER, ShaderAccess::Read);
+    }
     std::sort(shader.bindings.begin(), shader.bindings.end(),
               [](const ShaderBinding& a, const ShaderBinding& b) { return a.binding < b.binding; });
 
