@@ -133,6 +133,11 @@ mutation "barrier: the workgroup counts of an indirect dispatch are not waited f
     'use(arguments, VK_PIPELINE_STAGE_2_DRAW_INDIRECT_BIT, VK_ACCESS_2_INDIRECT_COMMAND_READ_BIT, false);' \
     '' \
     conformance_tests 'CountingSortTest.*'
+mutation "barrier: a read of texels is not one of a shader's reads" \
+    engine/gpu/commands.cpp \
+    'as_texels ? VK_ACCESS_2_SHADER_SAMPLED_READ_BIT' \
+    'as_texels ? VK_ACCESS_2_SHADER_STORAGE_READ_BIT' \
+    conformance_tests 'Steps.OneStepIsTheTwins'
 mutation "barrier: a pass declares that it only reads what it writes" \
     engine/sim/wcsph.cpp \
     'read(particles.acceleration), read_write(particles.velocity)' \
@@ -199,8 +204,8 @@ mutation "neighbors: velocities are not moved into the sorted order" \
 
 mutation "density: in terms of the rest density's mass instead of the particle's" \
     shaders/sim/density.comp \
-    'position[i].w * params.density_scale' \
-    'position[tile.first].w * params.density_scale' \
+    'mass = position[i].w' \
+    'mass = position[tile.first].w' \
     conformance_tests 'MaterialConformance.TwoRestDensities'
 mutation "state equation: Tait without its exponent in the stiffness" \
     shaders/sim/density.comp \
@@ -224,8 +229,8 @@ mutation "forces: pressure not symmetric" \
     conformance_tests 'Steps.MomentumIsConserved'
 mutation "forces: viscosity speeds up" \
     shaders/sim/forces.comp \
-    'vj - v[k]' \
-    'v[k] - vj' \
+    'vj - u[k]' \
+    'u[k] - vj' \
     conformance_tests '*PassConformance.EachForceAlone/Two*'
 mutation "forces: surface tension points outward" \
     shaders/sim/forces.comp \
@@ -239,13 +244,18 @@ mutation "forces: gravity left out" \
     conformance_tests 'Steps.FreeFallIsExact'
 mutation "walls: images do not move as mirrors do" \
     shaders/sim/forces.comp \
-    'vj = signs * velocity[j].xyz' \
-    'vj = velocity[j].xyz' \
+    'u[k] = signs * v[k]' \
+    'u[k] = v[k]' \
     conformance_tests 'Steps.OneStepIsTheTwins'
+mutation "walls: the force of an image is not reflected back" \
+    shaders/sim/forces.comp \
+    'force[k] += signs * image_force[k]' \
+    'force[k] += image_force[k]' \
+    conformance_tests '*PassConformance.AllPasses/LatticeOnTheFloor*'
 mutation "walls: half as far to the image" \
     shaders/include/walls.glsl \
-    '2.0 * walls.plane[axis] - x[axis]' \
-    '1.5 * walls.plane[axis] - 0.5 * x[axis]' \
+    '2.0 * walls.plane - x' \
+    '1.5 * walls.plane - 0.5 * x' \
     conformance_tests '*PassConformance.AllPasses/LatticeOnTheFloor*'
 mutation "walls: the contact spring's damping pushes" \
     shaders/sim/forces.comp \

@@ -18,11 +18,12 @@ struct ParticleBuffers {
     gpu::Buffer acceleration; ///< vec4: m/s^2; w unused
     gpu::Buffer density;      ///< float: kg/m^3
     gpu::Buffer pressure;     ///< float: Pa
+    gpu::Buffer interaction;  ///< vec4: what the forces need of density and pressure (shared/sph_params.h)
 };
 
 /// Device memory of one particle in these buffers.
 inline constexpr std::uint32_t particle_buffer_bytes =
-    2 * sizeof(std::uint32_t) + 3 * sizeof(glm::vec4) + 2 * sizeof(float);
+    2 * sizeof(std::uint32_t) + 4 * sizeof(glm::vec4) + 2 * sizeof(float);
 
 /// Allocates buffers for `count` particles with undefined content. Throws Device when they do not fit.
 [[nodiscard]] ParticleBuffers make_particle_buffers(const gpu::Context& context, std::uint32_t count);

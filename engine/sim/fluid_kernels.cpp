@@ -26,9 +26,10 @@ std::uint32_t checked_tile(const gpu::DeviceInfo& device, std::uint32_t tile)
     return tile == 0 ? default_tile(device) : tile;
 }
 
-std::array<gpu::SpecConstant, 3> constants(std::uint32_t tile, const FluidOptions& options)
+std::array<gpu::SpecConstant, 4> constants(std::uint32_t tile, const FluidOptions& options)
 {
-    return {{{0, options.kernel}, {1, tile}, {2, options.tension ? 1u : 0u}}}; // constant_id in shaders/
+    // constant_id in shaders/. Tiles are for devices that fetch texels fast.
+    return {{{0, options.kernel}, {1, tile}, {2, options.tension ? 1u : 0u}, {3, tile > 1 ? 1u : 0u}}};
 }
 
 } // namespace

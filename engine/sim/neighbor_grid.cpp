@@ -39,8 +39,8 @@ NeighborGrid::NeighborGrid(const gpu::Context& context, std::uint32_t particle_c
       scratch(sort.make_scratch(particle_count, cell_count)),
       sorted_id(gpu::make_buffer<std::uint32_t>(context, particle_count, "id")),
       sorted_attributes(gpu::make_buffer<std::uint32_t>(context, particle_count, "attributes")),
-      sorted_position(gpu::make_buffer<glm::vec4>(context, particle_count, "position")),
-      sorted_velocity(gpu::make_buffer<glm::vec4>(context, particle_count, "velocity"))
+      sorted_position(gpu::make_texel_buffer(context, particle_count, "position")),
+      sorted_velocity(gpu::make_texel_buffer(context, particle_count, "velocity"))
 {
 }
 

@@ -60,9 +60,10 @@ shared::SphParams complete_params(shared::SphParams params, std::size_t particle
 std::uint64_t Simulation::particle_limit(const gpu::DeviceInfo& device)
 {
     const std::uint64_t by_binding = device.limits.maxStorageBufferRange / sizeof(glm::vec4);
+    const std::uint64_t by_texels = device.limits.maxTexelBufferElements;
     const std::uint64_t by_memory = device.memory_bytes / bytes_per_particle;
     constexpr std::uint64_t by_id = 1u << 30; // an id shares a word with its fault (pack_offender)
-    return std::min({by_binding, by_memory, by_id});
+    return std::min({by_binding, by_texels, by_memory, by_id});
 }
 
 Simulation::Simulation(const gpu::Context& context, const ParticleSet& particles, const SimulationSettings& settings)

@@ -20,8 +20,9 @@ void record_density(gpu::Commands& commands, const FluidKernels& kernels, const 
 {
     const gpu::Scope scope(commands, "density");
     commands.dispatch(kernels.density, kernels.tiles(particles.count), gpu::NoPush{},
-                      {read(params), read(grid.cell_start), read(particles.position), read(particles.attributes),
-                       write(particles.density), write(particles.pressure)});
+                      {read(params), read(grid.cell_start), read(particles.position), read(particles.position),
+                       read(particles.attributes), write(particles.density), write(particles.pressure),
+                       write(particles.interaction)});
 }
 
 void record_forces(gpu::Commands& commands, const FluidKernels& kernels, const gpu::Buffer& params,
@@ -29,8 +30,9 @@ void record_forces(gpu::Commands& commands, const FluidKernels& kernels, const g
 {
     const gpu::Scope scope(commands, "forces");
     commands.dispatch(kernels.forces, kernels.tiles(particles.count), gpu::NoPush{},
-                      {read(params), read(grid.cell_start), read(particles.position), read(particles.velocity),
-                       read(particles.density), read(particles.pressure), write(particles.acceleration)});
+                      {read(params), read(grid.cell_start), read(particles.position), read(particles.position),
+                       read(particles.velocity), read(particles.velocity), read(particles.interaction),
+                       read(particles.interaction), write(particles.acceleration)});
 }
 
 void record_kick(gpu::Commands& commands, const FluidKernels& kernels, const gpu::Buffer& params,

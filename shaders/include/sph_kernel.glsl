@@ -37,11 +37,12 @@ float density_shape(float r2, KernelSize size)
 // y: viscous Laplacian / viscosity_scale.
 vec2 force_shapes(float r2, KernelSize size)
 {
-    float inverse_r = inversesqrt(max(r2, size.coincident2));
-    float u = max(1.0 - r2 * inverse_r * size.inverse_h, 0.0);
     if (KERNEL == KERNEL_PAPER) {
+        float inverse_r = inversesqrt(max(r2, size.coincident2));
+        float u = max(1.0 - r2 * inverse_r * size.inverse_h, 0.0);
         return vec2(r2 > size.coincident2 ? u * u * inverse_r : 0.0, u);
     }
+    float u = max(1.0 - sqrt(r2) * size.inverse_h, 0.0);
     float u3 = u * u * u;
     return vec2(r2 > size.coincident2 ? u3 * size.inverse_h : 0.0, u3);
 }

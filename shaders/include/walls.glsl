@@ -20,32 +20,25 @@ struct Walls {
 
 Walls nearest_walls(vec3 x, vec3 domain_min, vec3 domain_max, uint wall_mask)
 {
-    Walls walls;
-    for (int axis = 0; axis < 3; ++axis) {
-        float lower = (wall_mask & (1u << (2 * axis))) != 0u ? x[axis] - domain_min[axis] : NO_WALL;
-        float upper = (wall_mask & (2u << (2 * axis))) != 0u ? domain_max[axis] - x[axis] : NO_WALL;
-        walls.plane[axis] = lower <= upper ? domain_min[axis] : domain_max[axis];
-        walls.distance[axis] = min(lower, upper);
-        walls.normal[axis] = lower <= upper ? 1.0 : -1.0;
-    }
-    return walls;
+    vec3 lower = mix(vec3(NO_WALL), x - domain_min, notEqual(uvec3(wall_mask) & uvec3(1u, 4u, 16u), uvec3(0u)));
+    vec3 upper = mix(vec3(NO_WALL), domain_max - x, notEqual(uvec3(wall_mask) & uvec3(2u, 8u, 32u), uvec3(0u)));
+    bvec3 is_lower = lessThanEqual(lower, upper);
+    return Walls(mix(domain_max, domain_min, is_lower), min(lower, upper), mix(vec3(-1.0), vec3(1.0), is_lower));
 }
 
-// -1 along the axes that an image reflects, 1 along the others.
-vec3 image_signs(uint image) { return 1.0 - 2.0 * vec3(image & 1u, (image >> 1u) & 1u, (image >> 2u) & 1u); }
+// Along which axes an image reflects.
+bvec3 image_axes(uint image) { return notEqual(uvec3(image) & uvec3(1u, 2u, 4u), uvec3(0u)); }
+
+// Reflects a vector, or takes it back: -1 along the axes that the image reflects, 1 along the others.
+vec3 image_signs(uint image) { return mix(vec3(1.0), vec3(-1.0), image_axes(image)); }
 
 // The position's image, NOWHERE if one of its walls is out of reach.
 vec3 image_position(vec3 x, uint image, Walls walls, float support_radius)
 {
-    for (int axis = 0; axis < 3; ++axis) {
-        if ((image & (1u << axis)) != 0u) {
-            if (walls.distance[axis] >= support_radius) {
-                return NOWHERE;
-            }
-            x[axis] = 2.0 * walls.plane[axis] - x[axis];
-        }
-    }
-    return x;
+    bvec3 axes = image_axes(image);
+    vec3 distance = mix(vec3(0.0), walls.distance, axes);
+    bool in_reach = all(lessThan(distance, vec3(support_radius)));
+    return in_reach ? mix(x, 2.0 * walls.plane - x, axes) : NOWHERE;
 }
 
 // Integral of the viscous Laplacian over the half space beyond a plane at distance s, divided by viscosity_scale, in m^3.

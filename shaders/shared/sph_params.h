@@ -31,6 +31,9 @@ SHARED_CONSTANT float COINCIDENT_RATIO = 1e-6f;
 // (y, z offsets -1, 0, 1) of cells x-2 .. x+2: each row is one contiguous range of the sorted particles.
 SHARED_CONSTANT uint CELLS_PER_SUPPORT_X = 2u;
 
+// What the forces need of a particle's density and pressure is computed once, with them: `interaction`, a vec4 a particle of
+// x = p V^2 gradient_scale, y = V = m / rho (m^3); z and w are free.
+
 struct SphParams {
     vec3 domain_min;      // m
     float support_radius; // H, m: kernels vanish at r >= H

@@ -2,8 +2,9 @@
 #extension GL_EXT_control_flow_attributes : require
 #extension GL_GOOGLE_include_directive : require
 // Density and pressure: rho_i = m_i sum_j W_ij over the particles and their images in the walls (Solenthaler & Pajarola
-// 2008), then the state equation. Twin: engine/reference/density.cpp.
+// 2008), then the state equation; and what the forces need of both. Twin: engine/reference/density.cpp.
 #define CELL_START_BINDING 1
+#include "include/candidate.glsl"
 #include "include/invocation.glsl"
 #include "include/neighbor_walk.glsl"
 #include "include/sph_kernel.glsl"
@@ -11,9 +12,11 @@
 
 layout(set = 0, binding = 0, scalar) readonly buffer Params { SphParams params; };
 layout(set = 0, binding = 2, scalar) readonly buffer Position { vec4 position[]; };
-layout(set = 0, binding = 3, scalar) readonly buffer Attributes { uint attributes[]; };
-layout(set = 0, binding = 4, scalar) writeonly buffer Density { float density[]; };
-layout(set = 0, binding = 5, scalar) writeonly buffer Pressure { float pressure[]; };
+layout(set = 0, binding = 3) uniform textureBuffer position_texels;
+layout(set = 0, binding = 4, scalar) readonly buffer Attributes { uint attributes[]; };
+layout(set = 0, binding = 5, scalar) writeonly buffer Density { float density[]; };
+layout(set = 0, binding = 6, scalar) writeonly buffer Pressure { float pressure[]; };
+layout(set = 0, binding = 7, scalar) writeonly buffer Interaction { vec4 interaction[]; }; // of shared/sph_params.h
 
 #include "include/image_walk.glsl"
 
@@ -51,7 +54,7 @@ void main()
         vec3 x[TILE];
         Walk walk = begin_image_walk(own, image, x);
         FOR_EACH_CANDIDATE(range, walk) {
-            vec3 xj = position[range.x].xyz;
+            vec3 xj = load_candidate(position, range.x).xyz;
             [[unroll]] for (uint k = 0u; k < TILE; ++k) {
                 vec3 offset = x[k] - xj;
                 sum[k] += density_shape(dot(offset, offset), size);
@@ -64,9 +67,13 @@ void main()
         if (i > tile.last) {
             break;
         }
+        float mass = position[i].w;
         float rho0 = params.rest_density[particle_material(attributes[i])];
-        float rho = position[i].w * params.density_scale * sum[k];
+        float rho = mass * params.density_scale * sum[k];
+        float p = state_equation(rho, rho0);
+        float volume = mass / rho;
         density[i] = rho;
-        pressure[i] = state_equation(rho, rho0);
+        pressure[i] = p;
+        interaction[i] = vec4(params.gradient_scale * p * volume * volume, volume, 0.0, 0.0);
     }
 }

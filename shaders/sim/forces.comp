@@ -5,6 +5,7 @@
 // wall friction and contact. Pair forces are symmetric, so momentum is conserved: F_ij = -(p_i V_i^2 + p_j V_j^2) grad W + mu V_i V_j (v_j - v_i) lap W, with V = m / rho
 // (Mueller et al. 2003 as corrected; Solenthaler & Pajarola 2008). Twin: engine/reference/forces.cpp.
 #define CELL_START_BINDING 1
+#include "include/candidate.glsl"
 #include "include/invocation.glsl"
 #include "include/neighbor_walk.glsl"
 #include "include/sph_kernel.glsl"
@@ -13,10 +14,12 @@ layout(constant_id = 2) const bool TENSION = false;
 
 layout(set = 0, binding = 0, scalar) readonly buffer Params { SphParams params; };
 layout(set = 0, binding = 2, scalar) readonly buffer Position { vec4 position[]; };
-layout(set = 0, binding = 3, scalar) readonly buffer Velocity { vec4 velocity[]; };
-layout(set = 0, binding = 4, scalar) readonly buffer Density { float density[]; };
-layout(set = 0, binding = 5, scalar) readonly buffer Pressure { float pressure[]; };
-layout(set = 0, binding = 6, scalar) writeonly buffer Acceleration { vec4 acceleration[]; };
+layout(set = 0, binding = 3) uniform textureBuffer position_texels;
+layout(set = 0, binding = 4, scalar) readonly buffer Velocity { vec4 velocity[]; };
+layout(set = 0, binding = 5) uniform textureBuffer velocity_texels;
+layout(set = 0, binding = 6, scalar) readonly buffer Interaction { vec4 interaction[]; }; // of shared/sph_params.h
+layout(set = 0, binding = 7) uniform textureBuffer interaction_texels;
+layout(set = 0, binding = 8, scalar) writeonly buffer Acceleration { vec4 acceleration[]; };
 
 #include "include/image_walk.glsl"
 
@@ -70,9 +73,8 @@ void main()
     [[unroll]] for (uint k = 0u; k < TILE; ++k) {
         uint i = min(tile.first + k, tile.last);
         v[k] = velocity[i].xyz;
-        float volume = position[i].w / density[i];
-        pressure_term[k] = params.gradient_scale * pressure[i] * volume * volume;
-        viscous_term[k] = params.viscosity_scale * params.viscosity * volume;
+        pressure_term[k] = interaction[i].x;
+        viscous_term[k] = params.viscosity_scale * params.viscosity * interaction[i].y;
         force[k] = vec3(0.0);
         color_gradient[k] = vec3(0.0);
         color_laplacian[k] = 0.0;
@@ -82,27 +84,40 @@ void main()
         if (!has_image(tile, image)) {
             continue;
         }
+        // The tile, not the candidates, is reflected at the walls of the image: position, velocity, and the force back.
+        vec3 signs = image_signs(image);
         vec3 x[TILE];
+        vec3 u[TILE];
+        vec3 image_force[TILE];
+        vec3 image_gradient[TILE];
         Walk walk = begin_image_walk(own, image, x);
-        vec3 signs = image_signs(image); // reflects a vector at the walls of this image
+        [[unroll]] for (uint k = 0u; k < TILE; ++k) {
+            u[k] = signs * v[k];
+            image_force[k] = vec3(0.0);
+            image_gradient[k] = vec3(0.0);
+        }
         FOR_EACH_CANDIDATE(range, walk) {
-            uint j = range.x;
-            vec4 xj = position[j];
-            vec3 vj = signs * velocity[j].xyz;
-            float volume_j = xj.w / density[j];
-            float pressure_term_j = params.gradient_scale * pressure[j] * volume_j * volume_j;
+            vec3 xj = load_candidate(position, range.x).xyz;
+            vec3 vj = load_candidate(velocity, range.x).xyz;
+            vec2 interaction_j = load_candidate(interaction, range.x).xy;
+            float pressure_term_j = interaction_j.x;
+            float volume_j = interaction_j.y;
             [[unroll]] for (uint k = 0u; k < TILE; ++k) {
-                vec3 offset = signs * (x[k] - xj.xyz);
+                vec3 offset = x[k] - xj;
                 float r2 = dot(offset, offset);
                 vec2 shape = force_shapes(r2, size);
-                force[k] += (pressure_term[k] + pressure_term_j) * shape.x * offset;
-                force[k] += viscous_term[k] * volume_j * shape.y * (vj - v[k]);
+                image_force[k] += (pressure_term[k] + pressure_term_j) * shape.x * offset +
+                                  viscous_term[k] * volume_j * shape.y * (vj - u[k]);
                 if (TENSION) {
                     vec2 color = color_shapes(r2, size);
-                    color_gradient[k] -= volume_j * color.x * offset;
+                    image_gradient[k] -= volume_j * color.x * offset;
                     color_laplacian[k] += volume_j * color.y;
                 }
             }
+        }
+        [[unroll]] for (uint k = 0u; k < TILE; ++k) {
+            force[k] += signs * image_force[k];
+            color_gradient[k] += signs * image_gradient[k];
         }
     }
 
@@ -111,11 +126,12 @@ void main()
         if (i > tile.last) {
             break;
         }
+        float rho = position[i].w / interaction[i].y;
         vec3 a = params.gravity + force[k] / position[i].w;
-        a += wall_acceleration(own[k], v[k], density[i]);
+        a += wall_acceleration(own[k], v[k], rho);
         if (TENSION) {
             a += tension_acceleration(params.color_gradient_scale * color_gradient[k],
-                                      params.color_laplacian_scale * color_laplacian[k], density[i]);
+                                      params.color_laplacian_scale * color_laplacian[k], rho);
         }
         acceleration[i] = vec4(a, 0.0);
     }
