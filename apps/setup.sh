@@ -33,7 +33,6 @@ required_packages=(
 check_packages=(
     clang-16                   # the second compiler
     clang-tidy-16              # static analysis
-    clang-tools-16             # run-clang-tidy-16
 )
 
 # --- functions ---------------------------------------------------------------------------------------------------------

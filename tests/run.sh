@@ -75,13 +75,15 @@ build_release() {
     configure release && build build/release
 }
 
+# build_with_werror C++_COMPILER C_COMPILER [CMAKE OPTION...]
 build_with_werror() {
-    configure release -B "build/werror-$1" -DCMAKE_CXX_COMPILER="$1" -DCMAKE_C_COMPILER="$2" -DMELTPOINT_WERROR=ON &&
-        build "build/werror-$1"
+    configure release -B "build/werror-$1" -DCMAKE_CXX_COMPILER="$1" -DCMAKE_C_COMPILER="$2" -DMELTPOINT_WERROR=ON "${@:3}" &&
+        build "build/werror-$1" -- -k 0
 }
 
-clang_tidy() {
-    run-clang-tidy-16 -quiet -p "build/werror-clang++-16" -j "$(nproc)" "$PWD/(engine|apps|tests)/.*\.cpp\$"
+# clang-tidy runs beside the compiler, so that a second run looks only at what has changed.
+build_with_tidy() {
+    build_with_werror clang++-16 clang-16 -DCMAKE_CXX_CLANG_TIDY="clang-tidy-16;--quiet"
 }
 
 build_sanitized() {
@@ -93,8 +95,7 @@ stage "fast tests" ctest_labels build/release 'unit|conformance|images|physics-s
 
 if [ "$all" = yes ]; then
     stage "g++ -Werror" build_with_werror g++ gcc
-    stage "clang++-16 -Werror" build_with_werror clang++-16 clang-16
-    stage "clang-tidy-16" clang_tidy
+    stage "clang++-16, clang-tidy" build_with_tidy
     stage "sanitizers: build" build_sanitized
     stage "sanitizers: unit" ctest_labels build/asan unit
     # The software driver itself leaks a few kilobytes.
