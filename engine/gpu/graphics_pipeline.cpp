@@ -48,8 +48,8 @@ VkSampler make_nearest_sampler(const Context& context)
 
 } // namespace
 
-GraphicsPipeline::GraphicsPipeline(const Context& context, const std::string& name, const GraphicsPipelineInfo& info)
-    : context_(&context), name_(name), shader_(reflect(info.vertex))
+GraphicsPipeline::GraphicsPipeline(const Context& context, std::string name, const GraphicsPipelineInfo& info)
+    : context_(&context), name_(std::move(name)), shader_(reflect(info.vertex))
 {
     if (!info.fragment.empty()) {
         shader_ = merge(shader_, reflect(info.fragment));

@@ -24,7 +24,7 @@ struct GraphicsPipelineInfo {
 class GraphicsPipeline {
 public:
     GraphicsPipeline() = default;
-    GraphicsPipeline(const Context& context, const std::string& name, const GraphicsPipelineInfo& info);
+    GraphicsPipeline(const Context& context, std::string name, const GraphicsPipelineInfo& info);
     ~GraphicsPipeline();
     GraphicsPipeline(GraphicsPipeline&& other) noexcept;
     GraphicsPipeline& operator=(GraphicsPipeline&& other) noexcept;

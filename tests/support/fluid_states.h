@@ -40,7 +40,8 @@ inline sim::SimulationSettings test_settings(std::uint32_t kernel)
     return settings;
 }
 
-inline void add_particle(ParticleSet& set, const glm::vec3& position, const glm::vec3& velocity = glm::vec3(0.0f))
+/// By value: the position may be one of the set's own, which resizing moves.
+inline void add_particle(ParticleSet& set, glm::vec3 position, glm::vec3 velocity = glm::vec3(0.0f))
 {
     const std::size_t i = set.size();
     set.resize(i + 1);
