@@ -1,0 +1,173 @@
+#include "io/point_cloud_import.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <fstream>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "core/aabb.h"
+#include "core/error.h"
+#include "io/input_file.h"
+#include "io/ply_header.h"
+#include "io/ply_read.h"
+#include "io/text_scanner.h"
+
+namespace meltpoint {
+
+namespace {
+
+constexpr float largest_extent = 1e9f; // m, as of a mesh
+
+PointCloud read_ply_points(std::span<const std::uint8_t> bytes, const std::string& name)
+{
+    PlyContent content = read_ply(bytes, name);
+    PointCloud cloud;
+    cloud.positions = std::move(content.positions);
+    cloud.normals = std::move(content.normals);
+    cloud.colors = std::move(content.colors);
+    return cloud;
+}
+
+using Columns = std::array<double, 9>;
+
+/// The numbers of a line, before a comment. Returns how many there are: at most one too many.
+std::size_t read_line(TextScanner& text, Columns& columns)
+{
+    std::size_t count = 0;
+    for (std::string_view word = text.word_on_line(); !word.empty() && word.front() != '#';
+         word = text.word_on_line()) {
+        for (std::size_t begin = 0; begin <= word.size();) { // "1,2,3" is one word
+            const std::size_t end = std::min(word.find_first_of(",;", begin), word.size());
+            if (end > begin || end < word.size()) {
+                const double value = text.number(word.substr(begin, end - begin), "a column");
+                if (count == columns.size()) {
+                    return count + 1;
+                }
+                columns[count++] = value;
+            }
+            begin = end + 1;
+        }
+    }
+    return count;
+}
+
+bool are_colors(const std::vector<glm::vec3>& triples)
+{
+    const auto fits = [](const glm::vec3& c) {
+        return c == glm::floor(c) && std::min({c.x, c.y, c.z}) >= 0.0f && std::max({c.x, c.y, c.z}) <= 255.0f;
+    };
+    const auto is_unit = [](const glm::vec3& c) {
+        return std::abs(glm::length(c) - 1.0f) < 0.01f;
+    };
+    return std::all_of(triples.begin(), triples.end(), fits) && !std::all_of(triples.begin(), triples.end(), is_unit);
+}
+
+std::uint8_t channel(double value)
+{
+    return static_cast<std::uint8_t>(std::clamp(value, 0.0, 255.0) + 0.5);
+}
+
+PointCloud read_xyz(std::span<const std::uint8_t> bytes, const std::string& name)
+{
+    TextScanner text(bytes, name);
+    PointCloud cloud;
+    Columns columns{};
+    std::size_t first_count = 0; // of columns
+    for (bool more = text.next_content(); more; more = text.next_line() && text.next_content()) {
+        const std::size_t count = read_line(text, columns);
+        first_count = first_count == 0 ? count : first_count;
+        if ((count != 3 && count != 6 && count != 9) || count != first_count) {
+            throw text.error("{} numbers in a line: there must be 3, 6 or 9, and as many in each", count);
+        }
+        cloud.positions.emplace_back(columns[0], columns[1], columns[2]);
+        if (count >= 6) {
+            cloud.normals.emplace_back(columns[3], columns[4], columns[5]);
+        }
+        if (count == 9) {
+            cloud.colors.emplace_back(channel(columns[6]), channel(columns[7]), channel(columns[8]));
+        }
+    }
+    if (first_count == 6 && are_colors(cloud.normals)) {
+        for (const glm::vec3& c : cloud.normals) {
+            cloud.colors.emplace_back(channel(c.x), channel(c.y), channel(c.z));
+        }
+        cloud.normals.clear();
+    }
+    return cloud;
+}
+
+bool is_finite(const glm::vec3& v)
+{
+    return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
+}
+
+void check(const PointCloud& cloud, const std::string& name)
+{
+    if (cloud.positions.empty()) {
+        throw input_error("{}: the file holds no points", name);
+    }
+    Aabb box;
+    for (std::size_t i = 0; i < cloud.size(); ++i) {
+        const glm::vec3& p = cloud.positions[i];
+        if (!is_finite(p)) {
+            throw input_error("{}: point {} is not finite ({}, {}, {})", name, i, p.x, p.y, p.z);
+        }
+        if (!cloud.normals.empty() && !is_finite(cloud.normals[i])) {
+            throw input_error("{}: the normal of point {} is not finite", name, i);
+        }
+        box.extend(p);
+    }
+    const glm::vec3 reach = glm::max(glm::abs(box.min), glm::abs(box.max));
+    const float extent = std::max({reach.x, reach.y, reach.z});
+    if (extent > largest_extent) {
+        throw input_error("{}: the points reach {:g} m, at most {:g} m are supported", name, extent, largest_extent);
+    }
+}
+
+void normalize(std::vector<glm::vec3>& normals)
+{
+    bool any = false;
+    for (glm::vec3& normal : normals) {
+        const double length = glm::length(glm::dvec3(normal));
+        any = any || length > 0.0;
+        normal = length > 0.0 ? glm::vec3(glm::dvec3(normal) / length) : glm::vec3(0.0f);
+    }
+    if (!any) {
+        normals.clear();
+    }
+}
+
+} // namespace
+
+bool holds_points(const std::filesystem::path& path)
+{
+    const std::string extension = lower_extension(path);
+    if (extension != "ply") {
+        return extension == "xyz";
+    }
+    return !has_faces(read_ply_header(read_input_file(path), path.string()));
+}
+
+PointCloud parse_point_cloud(std::span<const std::uint8_t> bytes, const std::filesystem::path& path)
+{
+    const std::string extension = lower_extension(path);
+    if (extension != "ply" && extension != "xyz") {
+        throw input_error("{}: points are read from files that end in .ply or .xyz, not in \"{}\"", path.string(),
+                          path.extension().string());
+    }
+    PointCloud cloud = extension == "ply" ? read_ply_points(bytes, path.string()) : read_xyz(bytes, path.string());
+    check(cloud, path.string());
+    normalize(cloud.normals);
+    return cloud;
+}
+
+PointCloud import_point_cloud(const std::filesystem::path& path)
+{
+    return parse_point_cloud(read_input_file(path), path);
+}
+
+} // namespace meltpoint
