@@ -287,7 +287,7 @@ mutation "faults: the largest id is reported" \
 # --- sampling and drawing -----------------------------------------------------------------------------------------------
 
 mutation "surface samples: the half beyond the triangle is not folded back" \
-    engine/geometry/surface_sampling.cpp \
+    engine/geometry/surface_candidates.cpp \
     'u + v > 1.0' \
     'u + v > 2.0' \
     unit_tests 'SurfaceSampling.PointsAreUniformOnTheirTriangles'

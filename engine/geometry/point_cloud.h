@@ -21,14 +21,6 @@ struct PointCloud {
     std::vector<glm::u8vec3> colors; ///< sRGB; empty where the source has none
 
     [[nodiscard]] std::size_t size() const { return positions.size(); }
-
-    void resize(std::size_t count)
-    {
-        positions.resize(count);
-        normals.resize(count);
-        triangle.resize(count);
-        barycentric.resize(count);
-    }
 };
 
 } // namespace meltpoint

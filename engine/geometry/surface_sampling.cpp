@@ -1,64 +1,63 @@
 #include "geometry/surface_sampling.h"
 
+#include <algorithm>
+#include <cmath>
+
 #include "core/error.h"
-#include "core/parallel_for.h"
-#include "core/random.h"
-#include "geometry/alias_table.h"
+#include "geometry/stratified_sampling.h"
+#include "geometry/surface_candidates.h"
 
 namespace meltpoint {
 
 namespace {
 
-constexpr std::size_t most_points = std::size_t{1} << 28;
+constexpr std::size_t candidates_a_stratum = 8;
 
-glm::vec3 normal_at(const TriangleMesh& mesh, std::uint32_t triangle, double u, double v)
+/// What memory allows, candidates among it.
+double most_points(SurfaceMethod method)
 {
-    if (!mesh.normals.empty()) {
-        const glm::uvec3& corners = mesh.triangles[triangle];
-        const glm::dvec3 a(mesh.normals[corners.x]);
-        const glm::dvec3 b(mesh.normals[corners.y]);
-        const glm::dvec3 c(mesh.normals[corners.z]);
-        const glm::dvec3 normal = (1.0 - u - v) * a + u * b + v * c;
-        const bool all_there = glm::dot(a, a) > 0.0 && glm::dot(b, b) > 0.0 && glm::dot(c, c) > 0.0;
-        if (all_there && glm::length(normal) > 0.1) {
-            return glm::vec3(glm::normalize(normal));
+    return method == SurfaceMethod::Random ? 0x1p28 : 0x1p24;
+}
+
+std::size_t wanted_count(const SurfaceRequest& request, double area)
+{
+    double count = 0.0;
+    if (const auto* spacing = std::get_if<PointSpacing>(&request.amount)) {
+        if (!std::isfinite(spacing->meters) || spacing->meters <= 0.0) {
+            throw input_error("the spacing of surface samples is {} m, but must be positive", spacing->meters);
         }
+        count = std::max(std::round(area / (spacing->meters * spacing->meters)), 1.0);
+    } else {
+        count = static_cast<double>(std::get<PointCount>(request.amount).points);
     }
-    return glm::vec3(glm::normalize(area_vector(mesh, triangle)));
+    const double most = most_points(request.method);
+    if (!(count <= most)) {
+        throw input_error("{:.0f} surface samples were asked for, at most {:.0f} are supported", count, most);
+    }
+    return static_cast<std::size_t>(count);
 }
 
 } // namespace
 
-PointCloud sample_surface_random(const TriangleMesh& mesh, std::size_t count, std::uint64_t seed)
+SurfaceSamples sample_surface(const TriangleMesh& mesh, const SurfaceRequest& request)
 {
-    if (count > most_points) {
-        throw input_error("{} surface samples were asked for, at most {} are supported", count, most_points);
+    SurfaceSamples samples;
+    samples.area = surface_area(mesh);
+    const std::size_t count = wanted_count(request, samples.area);
+    samples.spacing = count == 0 ? 0.0 : std::sqrt(samples.area / static_cast<double>(count));
+    const SurfaceCandidates candidates(mesh, request.seed);
+    switch (request.method) {
+    case SurfaceMethod::Random:
+        samples.cloud = candidates.cloud(count);
+        break;
+    case SurfaceMethod::Stratified:
+        samples.cloud = candidates.cloud(
+            choose_stratified(candidates.positions(candidates_a_stratum * count), candidates_a_stratum, request.seed));
+        break;
+    case SurfaceMethod::BlueNoise:
+        throw runtime_error("blue noise is not there yet");
     }
-    std::vector<double> areas(mesh.triangles.size());
-    parallel_for(areas.size(), [&](std::size_t i) { areas[i] = triangle_area(mesh, i); });
-    const AliasTable triangles_by_area(areas);
-
-    PointCloud cloud;
-    cloud.resize(count);
-    parallel_for(count, [&](std::size_t i) {
-        Random random(seed, i);
-        const std::uint32_t triangle = triangles_by_area.draw(random);
-        double u = random.uniform();
-        double v = random.uniform();
-        if (u + v > 1.0) {
-            u = 1.0 - u;
-            v = 1.0 - v;
-        }
-        const glm::uvec3& corners = mesh.triangles[triangle];
-        const glm::dvec3 a(mesh.positions[corners.x]);
-        const glm::dvec3 b(mesh.positions[corners.y]);
-        const glm::dvec3 c(mesh.positions[corners.z]);
-        cloud.positions[i] = glm::vec3(a + u * (b - a) + v * (c - a));
-        cloud.normals[i] = normal_at(mesh, triangle, u, v);
-        cloud.triangle[i] = triangle;
-        cloud.barycentric[i] = glm::vec2(u, v);
-    });
-    return cloud;
+    return samples;
 }
 
 } // namespace meltpoint

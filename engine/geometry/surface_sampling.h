@@ -4,15 +4,34 @@
 #include <cstdint>
 
 #include "geometry/point_cloud.h"
+#include "geometry/sample_amount.h"
 #include "geometry/triangle_mesh.h"
 
 namespace meltpoint {
 
-/// Exactly `count` points, uniformly distributed over the surface: triangles by area from an alias table, then uniform
-/// on the triangle by folding the unit square (Osada, Funkhouser, Chazelle & Dobkin 2002). The normal is interpolated
-/// from the vertices where all three have one, else it is the triangle's. The mesh must be valid (validate()). Point i
-/// depends on the seed and i alone: more points begin with the same ones, on any number of threads. More than 2^28
-/// points are an Input error.
-[[nodiscard]] PointCloud sample_surface_random(const TriangleMesh& mesh, std::size_t count, std::uint64_t seed);
+enum class SurfaceMethod {
+    Random,     ///< each point uniformly distributed, independent of the others
+    Stratified, ///< one point in each of N patches of equal area: fewer clumps and gaps
+    BlueNoise,  ///< no two points close together, no gaps: the fewest points for the same coverage
+};
+
+struct SurfaceRequest {
+    SurfaceMethod method = SurfaceMethod::Random;
+    SampleAmount amount = PointCount{};
+    std::uint64_t seed = 1;
+};
+
+struct SurfaceSamples {
+    PointCloud cloud;
+    double area = 0.0;    ///< A of the mesh, m^2
+    double spacing = 0.0; ///< sqrt(A / N), m
+};
+
+/// Takes points from the surface of a mesh, which must be valid (validate()): exactly as many as asked, or
+/// round(A / spacing^2), at least one. Each carries its triangle, its barycentric coordinates, and its normal:
+/// interpolated from the vertices where all three have one, else the triangle's. The same seed gives the same points on
+/// any number of threads. A spacing that is not positive, and more than 2^28
+/// random or 2^24 other points, are Input errors.
+[[nodiscard]] SurfaceSamples sample_surface(const TriangleMesh& mesh, const SurfaceRequest& request);
 
 } // namespace meltpoint

@@ -245,27 +245,6 @@ TriangleMesh weld(const TriangleMesh& mesh)
     return welded;
 }
 
-std::size_t count_boundary_edges(const TriangleMesh& mesh)
-{
-    std::vector<std::uint64_t> edges;
-    edges.reserve(3 * mesh.triangles.size());
-    for (const glm::uvec3& corners : mesh.triangles) {
-        for (int i = 0; i < 3; ++i) {
-            const std::uint64_t a = corners[i];
-            const std::uint64_t b = corners[(i + 1) % 3];
-            edges.push_back(std::min(a, b) << 32 | std::max(a, b));
-        }
-    }
-    std::sort(edges.begin(), edges.end());
-    std::size_t count = 0;
-    for (auto run = edges.begin(); run != edges.end();) {
-        const auto next = std::find_if(run, edges.end(), [&](std::uint64_t edge) { return edge != *run; });
-        count += next - run == 1 ? 1 : 0;
-        run = next;
-    }
-    return count;
-}
-
 std::vector<glm::vec3> smooth_normals(const TriangleMesh& mesh)
 {
     std::vector<glm::dvec3> sums(mesh.positions.size(), glm::dvec3(0.0));

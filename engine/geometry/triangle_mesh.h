@@ -46,9 +46,6 @@ void validate(const TriangleMesh& mesh, std::string_view name);
 /// or set to zero where they differ by more than 30 degrees from their mean (a crease).
 [[nodiscard]] TriangleMesh weld(const TriangleMesh& mesh);
 
-/// Number of edges that belong to exactly one triangle. Zero for a closed mesh; meaningful only on a welded one.
-[[nodiscard]] std::size_t count_boundary_edges(const TriangleMesh& mesh);
-
 /// Normals averaged over the triangles of a vertex, weighted by area.
 [[nodiscard]] std::vector<glm::vec3> smooth_normals(const TriangleMesh& mesh);
 

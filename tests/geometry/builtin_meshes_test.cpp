@@ -9,6 +9,7 @@
 #include <gtest/gtest.h>
 
 #include "core/error.h"
+#include "geometry/mesh_facts.h"
 #include "geometry/teapot.h"
 
 namespace meltpoint {
@@ -23,7 +24,7 @@ TEST(BuiltinMeshes, AllAreValidWeldedAndConsistentlyOriented)
         EXPECT_NO_THROW(validate(mesh, name));
         EXPECT_EQ(weld(mesh).positions.size(), mesh.positions.size()) << name;
         EXPECT_GT(signed_volume(mesh), 0.0) << name;
-        EXPECT_EQ(count_boundary_edges(mesh) == 0, name != "teapot") << name;
+        EXPECT_EQ(mesh_facts(mesh).boundary_edges == 0, name != "teapot") << name;
         // Two triangles that share an edge run along it in opposite directions.
         std::map<std::pair<std::uint32_t, std::uint32_t>, int> directed_edges;
         for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {

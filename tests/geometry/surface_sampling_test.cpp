@@ -15,6 +15,11 @@
 namespace meltpoint {
 namespace {
 
+PointCloud random_points(const TriangleMesh& mesh, std::size_t count, std::uint64_t seed)
+{
+    return sample_surface(mesh, {SurfaceMethod::Random, PointCount{count}, seed}).cloud;
+}
+
 /// Upper tail of the chi-square distribution by the cube-root normal approximation (Wilson & Hilferty 1931), good to a
 /// few 1e-4 from 10 degrees of freedom on.
 double chi_square_p(double statistic, double degrees)
@@ -96,17 +101,43 @@ TEST(SurfaceSampling, PointsPerTriangleFollowTheArea)
 {
     for (const std::uint64_t seed : {1u, 2u, 3u}) {
         for (const TriangleMesh& mesh : {teapot(6), builtin_mesh("torus")}) {
-            const double p = goodness_of_fit(areas_of(mesh), sample_surface_random(mesh, 200'000, seed).triangle);
+            const double p = goodness_of_fit(areas_of(mesh), random_points(mesh, 200'000, seed).triangle);
             EXPECT_GE(p, 0.001) << "seed " << seed;
             EXPECT_LE(p, 0.999) << "seed " << seed;
         }
     }
 }
 
+TEST(SurfaceSampling, StratifiedPointsFollowTheAreaMoreCloselyThanChance)
+{
+    for (const std::uint64_t seed : {1u, 2u, 3u}) {
+        for (const TriangleMesh& mesh : {teapot(6), builtin_mesh("torus")}) {
+            const SurfaceSamples samples = sample_surface(mesh, {SurfaceMethod::Stratified, PointCount{50'000}, seed});
+            ASSERT_EQ(samples.cloud.size(), 50'000u);
+            EXPECT_GE(goodness_of_fit(areas_of(mesh), samples.cloud.triangle), 0.999) << "seed " << seed;
+        }
+    }
+}
+
+TEST(SurfaceSampling, ASpacingGivesEachPointItsSquare)
+{
+    const TriangleMesh cube = builtin_mesh("cube");
+    for (const SurfaceMethod method : {SurfaceMethod::Random, SurfaceMethod::Stratified}) {
+        const SurfaceSamples samples = sample_surface(cube, {method, PointSpacing{0.1}});
+        EXPECT_EQ(samples.cloud.size(), 600u);
+        EXPECT_DOUBLE_EQ(samples.area, 6.0);
+        EXPECT_DOUBLE_EQ(samples.spacing, 0.1);
+        EXPECT_EQ(sample_surface(cube, {method, PointSpacing{100.0}}).cloud.size(), 1u);
+        EXPECT_EQ(sample_surface(cube, {method, PointCount{7}}).cloud.size(), 7u);
+        EXPECT_THROW((void)sample_surface(cube, {method, PointSpacing{0.0}}), Error);
+        EXPECT_THROW((void)sample_surface(cube, {method, PointSpacing{1e-9}}), Error);
+    }
+}
+
 TEST(SurfaceSampling, PointsAreUniformOnTheirTriangles)
 {
     const std::size_t count = 200'000;
-    const PointCloud cloud = sample_surface_random(builtin_mesh("cube"), count, 4);
+    const PointCloud cloud = random_points(builtin_mesh("cube"), count, 4);
     for (int axis = 0; axis < 2; ++axis) {
         std::vector<double> values;
         for (const glm::vec2& uv : cloud.barycentric) {
@@ -130,7 +161,7 @@ TEST(SurfaceSampling, PointsAreUniformOnTheirTriangles)
 TEST(SurfaceSampling, PointsLieWhereTheySayAndCarryTheNormal)
 {
     const TriangleMesh sphere = builtin_mesh("sphere");
-    const PointCloud cloud = sample_surface_random(sphere, 10'000, 5);
+    const PointCloud cloud = random_points(sphere, 10'000, 5);
     ASSERT_EQ(cloud.size(), 10'000u);
     for (std::size_t i = 0; i < cloud.size(); ++i) {
         const glm::uvec3& t = sphere.triangles[cloud.triangle[i]];
@@ -148,7 +179,7 @@ TEST(SurfaceSampling, WithoutVertexNormalsOrAtCreasesTheTriangleSpeaks)
     TriangleMesh cube = builtin_mesh("cube");
     for (const bool creases : {false, true}) {
         cube.normals.assign(creases ? cube.positions.size() : 0, glm::vec3(0.0f));
-        const PointCloud cloud = sample_surface_random(cube, 1000, 6);
+        const PointCloud cloud = random_points(cube, 1000, 6);
         for (std::size_t i = 0; i < cloud.size(); ++i) {
             const glm::vec3 normal = cloud.normals[i];
             ASSERT_FLOAT_EQ(glm::length(normal), 1.0f);
@@ -162,7 +193,7 @@ TEST(SurfaceSampling, IsTheSameOnAnyNumberOfThreadsAndForAnyCount)
     const TriangleMesh mesh = builtin_mesh("torus");
     const auto run = [&](std::size_t threads, std::size_t count) {
         const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, threads);
-        return sample_surface_random(mesh, count, 7);
+        return random_points(mesh, count, 7);
     };
     const PointCloud one = run(1, 20'000);
     const PointCloud two = run(2, 20'000);
@@ -170,13 +201,13 @@ TEST(SurfaceSampling, IsTheSameOnAnyNumberOfThreadsAndForAnyCount)
     EXPECT_EQ(std::memcmp(one.normals.data(), two.normals.data(), one.size() * sizeof(glm::vec3)), 0);
     EXPECT_EQ(one.triangle, two.triangle);
     EXPECT_EQ(run(2, 100).positions[99], one.positions[99]);
-    EXPECT_NE(sample_surface_random(mesh, 100, 8).positions[0], one.positions[0]);
-    EXPECT_EQ(sample_surface_random(mesh, 0, 7).size(), 0u);
+    EXPECT_NE(random_points(mesh, 100, 8).positions[0], one.positions[0]);
+    EXPECT_EQ(random_points(mesh, 0, 7).size(), 0u);
 }
 
 TEST(SurfaceSampling, AnAbsurdCountIsRefused)
 {
-    EXPECT_THROW((void)sample_surface_random(builtin_mesh("cube"), std::size_t{1} << 40, 1), Error);
+    EXPECT_THROW((void)random_points(builtin_mesh("cube"), std::size_t{1} << 40, 1), Error);
 }
 
 } // namespace

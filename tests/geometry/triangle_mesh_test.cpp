@@ -1,3 +1,4 @@
+#include "geometry/mesh_facts.h"
 #include "geometry/triangle_mesh.h"
 
 #include <cmath>
@@ -92,11 +93,11 @@ TriangleMesh cube_of_faces()
 
 TEST(TriangleMesh, WeldMergesCoincidentVerticesAndMarksCreases)
 {
-    EXPECT_EQ(count_boundary_edges(cube_of_faces()), 36u);
+    EXPECT_EQ(mesh_facts(cube_of_faces()).boundary_edges, 36u);
     const TriangleMesh welded = weld(cube_of_faces());
     EXPECT_EQ(welded.positions.size(), 8u);
     EXPECT_EQ(welded.triangles.size(), 12u);
-    EXPECT_EQ(count_boundary_edges(welded), 0u);
+    EXPECT_EQ(mesh_facts(welded).boundary_edges, 0u);
     for (const glm::vec3& normal : welded.normals) {
         EXPECT_EQ(normal, glm::vec3(0.0f));
     }

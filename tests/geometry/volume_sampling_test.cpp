@@ -12,6 +12,7 @@
 
 #include "core/error.h"
 #include "geometry/builtin_meshes.h"
+#include "geometry/mesh_solid.h"
 #include "geometry/teapot.h"
 #include "geometry/winding_number.h"
 
@@ -112,6 +113,58 @@ TEST(VolumeSampling, ACubeOfAnAwkwardEdgeDoesNotGetTooFewParticles)
     TriangleMesh cube = builtin_mesh("cube"); // 10.49 spacings: a plain clip would leave 10^3, each 15 % too heavy
     const VolumeSamples samples = sample_volume(cube, 1.0 / 10.49);
     EXPECT_LE(std::abs(lattice_error(samples)), 0.002);
+}
+
+TEST(VolumeSampling, EveryLatticeHasItsVolumeAndItsNeighbors)
+{
+    struct Expected {
+        Lattice lattice;
+        double nearest; // neighbor, in d: the cell of one particle has the volume d^3
+        int neighbors;
+    };
+    const MeshSolid torus(builtin_mesh("torus"));
+    for (const Expected& expected :
+         {Expected{Lattice::Cubic, 1.0, 6}, Expected{Lattice::Bcc, 1.0911, 8}, Expected{Lattice::Fcc, 1.1225, 12}}) {
+        const VolumeSamples samples = sample_volume(torus, {expected.lattice, PointSpacing{0.1}});
+        EXPECT_LE(std::abs(lattice_error(samples)), 0.002);
+        EXPECT_NEAR(samples.spacing, 0.1, 0.0025 + 1e-9);
+        int most = 0;
+        for (std::size_t i = 0; i < samples.positions.size(); i += 17) {
+            int neighbors = 0;
+            for (std::size_t j = 0; j < samples.positions.size(); ++j) {
+                const double r = double(glm::distance(samples.positions[i], samples.positions[j])) / samples.spacing;
+                neighbors += i != j && r < expected.nearest * 1.001 ? 1 : 0;
+                ASSERT_TRUE(i == j || r > expected.nearest * 0.999) << r;
+            }
+            most = std::max(most, neighbors);
+        }
+        EXPECT_EQ(most, expected.neighbors);
+    }
+}
+
+TEST(VolumeSampling, ACountIsMetWithinTwoPercent)
+{
+    const MeshSolid cube(builtin_mesh("cube"));
+    const MeshSolid torus(builtin_mesh("torus"));
+    const BallSolid ball({3.0f, 0.0f, 0.0f}, 0.1f);
+    for (const Lattice lattice : {Lattice::Cubic, Lattice::Bcc, Lattice::Fcc}) {
+        for (const std::size_t count : {1u, 5u, 100u, 1154u, 20'000u}) { // 1154: 10.49 layers in the cube
+            for (const Solid* solid : {static_cast<const Solid*>(&cube), static_cast<const Solid*>(&torus),
+                                       static_cast<const Solid*>(&ball)}) {
+                const VolumeSamples samples = sample_volume(*solid, {lattice, PointCount{count}});
+                EXPECT_NEAR(double(samples.positions.size()), double(count), 0.02 * double(count));
+                EXPECT_LE(std::abs(lattice_error(samples)), 0.002) << count;
+            }
+        }
+    }
+    EXPECT_NE(complaint([&] {
+                  return sample_volume(cube, {Lattice::Bcc, PointCount{0}});
+              }).find("is 0"),
+              std::string::npos);
+    EXPECT_NE(complaint([&] {
+                  return sample_volume(cube, {Lattice::Fcc, PointCount{std::size_t{1} << 40}});
+              }).find("lattice points"),
+              std::string::npos);
 }
 
 TEST(VolumeSampling, TheOpenTeapotIsFilledToItsVolume)

@@ -1,9 +1,14 @@
-#include "geometry/solid_region.h"
+#include "geometry/mesh_solid.h"
 
 #include <algorithm>
 #include <cmath>
 #include <map>
 #include <numeric>
+
+#include "core/parallel_for.h"
+#include "geometry/measure_volume.h"
+#include "geometry/row_crossings.h"
+#include "geometry/winding_thresholds.h"
 
 namespace meltpoint {
 
@@ -119,22 +124,55 @@ TriangleMesh boundary_cones(const TriangleMesh& mesh)
     return cones;
 }
 
-SolidRegion::SolidRegion(const TriangleMesh& mesh) : SolidRegion(mesh, boundary_cones(mesh)) {}
+MeshSolid::MeshSolid(const TriangleMesh& mesh) : MeshSolid(mesh, boundary_cones(mesh)) {}
 
-SolidRegion::SolidRegion(const TriangleMesh& mesh, const TriangleMesh& cones)
-    : mesh_(mesh), closed_(together(mesh, cones)), cones_(cones)
+MeshSolid::MeshSolid(const TriangleMesh& mesh, const TriangleMesh& cones)
+    : bounds_(meltpoint::bounds(mesh)), closed_(together(mesh, cones)), mesh_(mesh), cones_(cones)
 {
 }
 
-bool SolidRegion::contains(const glm::dvec3& point, double closed) const
+double MeshSolid::volume() const
+{
+    tbb::collaborative_call_once(measured_, [this] { volume_ = measure_volume(*this); });
+    return volume_;
+}
+
+bool MeshSolid::contains(const glm::dvec3& point) const
+{
+    const double w = mesh_.at(point, coarse);
+    return std::abs(w - 0.5) > coarse_error ? w >= 0.5 : mesh_.at(point) >= 0.5;
+}
+
+bool MeshSolid::contains(const glm::dvec3& point, int closed) const
 {
     const double w = closed - cones_.at(point, coarse);
     return std::abs(w - 0.5) > coarse_error ? w >= 0.5 : closed - cones_.at(point) >= 0.5;
 }
 
-double SolidRegion::closed_at(const glm::dvec3& point) const
+CellMask MeshSolid::mask(const CellGrid& grid) const
 {
-    return std::round(closed_.at(point, coarse));
+    CellMask mask(grid.size(), 0);
+    const std::vector<std::int8_t> thresholds = winding_thresholds(cones_, grid);
+    for (std::size_t number = 0; number < grid.points.size(); ++number) {
+        const RowCrossings crossings(closed_, grid, number);
+        parallel_for(grid.rows(), [&](std::size_t row) {
+            const bool certain = crossings.is_certain(row);
+            const std::span<const RowCrossings::Crossing> of_row = crossings.of_row(row);
+            auto next = of_row.begin();
+            int closed = 0;
+            for (glm::uvec3 cell = grid.row_begin(row); cell.x < grid.count.x; ++cell.x) {
+                for (const double x = grid.along_row(cell, number); next != of_row.end() && next->x <= x; ++next) {
+                    closed += next->change;
+                }
+                const std::int8_t threshold = thresholds[grid.index(cell)];
+                const bool inside = !certain                    ? contains(grid.point(cell, number))
+                                    : threshold != no_threshold ? closed >= threshold
+                                                                : contains(grid.point(cell, number), closed);
+                mask[grid.index(cell)] |= static_cast<std::uint8_t>(unsigned{inside} << number);
+            }
+        });
+    }
+    return mask;
 }
 
 } // namespace meltpoint

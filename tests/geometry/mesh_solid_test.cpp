@@ -1,11 +1,10 @@
-#include "geometry/solid_region.h"
+#include "geometry/mesh_solid.h"
 
 #include <cmath>
 
 #include <gtest/gtest.h>
 
 #include "geometry/builtin_meshes.h"
-#include "geometry/inside_mask.h"
 #include "geometry/teapot.h"
 
 namespace meltpoint {
@@ -30,7 +29,7 @@ TriangleMesh soup()
     return mesh;
 }
 
-TEST(SolidRegion, ConesCloseAnyMesh)
+TEST(MeshSolid, ConesCloseAnyMesh)
 {
     EXPECT_TRUE(boundary_cones(builtin_mesh("torus")).triangles.empty());
     for (const TriangleMesh& mesh :
@@ -44,7 +43,7 @@ TEST(SolidRegion, ConesCloseAnyMesh)
     }
 }
 
-TEST(SolidRegion, TheMaskAgreesWithEveryPointsWindingNumber)
+TEST(MeshSolid, TheMaskAgreesWithEveryPointsWindingNumber)
 {
     for (const TriangleMesh& mesh : {teapot(5), open_cube(10), open_cube(7), builtin_mesh("cube")}) {
         const Aabb box = bounds(mesh);
@@ -52,12 +51,12 @@ TEST(SolidRegion, TheMaskAgreesWithEveryPointsWindingNumber)
         grid.count = {30, 15, 21};
         grid.origin = glm::dvec3(box.min) - 0.3;
         grid.cell_size = (glm::dvec3(box.size()) + 0.6) / glm::dvec3(grid.count);
-        const SolidRegion region(mesh);
+        const MeshSolid solid(mesh);
         for (const bool jitter : {false, true}) {
             if (jitter) {
                 grid.jitter_seed = 3;
             }
-            const std::vector<std::uint8_t> mask = inside_mask(region, grid);
+            const CellMask mask = solid.mask(grid);
             std::size_t undecided = 0;
             glm::uvec3 cell(0);
             for (cell.z = 0; cell.z < grid.count.z; ++cell.z) {
