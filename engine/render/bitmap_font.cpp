@@ -7,7 +7,7 @@ namespace meltpoint::render {
 
 namespace {
 
-constexpr std::uint32_t glyph_width = 5;
+constexpr std::int64_t glyph_width = 5;
 
 struct Glyph {
     char character;
@@ -104,9 +104,9 @@ const Glyph& find_glyph(char character)
 
 } // namespace
 
-std::uint32_t text_width(std::string_view text, std::uint32_t scale)
+std::int64_t text_width(std::string_view text, std::int64_t scale)
 {
-    return text.empty() ? 0 : (static_cast<std::uint32_t>(text.size()) * glyph_advance - 1) * scale;
+    return text.empty() ? 0 : (std::ssize(text) * glyph_advance - 1) * scale;
 }
 
 void fill_rectangle(Image& image, std::int64_t x, std::int64_t y, std::int64_t width, std::int64_t height,
@@ -125,13 +125,13 @@ void fill_rectangle(Image& image, std::int64_t x, std::int64_t y, std::int64_t w
     }
 }
 
-void draw_text(Image& image, std::int64_t x, std::int64_t y, std::string_view text, std::uint32_t scale,
+void draw_text(Image& image, std::int64_t x, std::int64_t y, std::string_view text, std::int64_t scale,
                const glm::u8vec3& color)
 {
     for (const char character : text) {
         const Glyph& glyph = find_glyph(character);
-        for (std::uint32_t row = 0; row < glyph_height; ++row) {
-            for (std::uint32_t column = 0; column < glyph_width; ++column) {
+        for (std::int64_t row = 0; row < glyph_height; ++row) {
+            for (std::int64_t column = 0; column < glyph_width; ++column) {
                 if ((glyph.rows[row] >> (glyph_width - 1 - column) & 1) != 0) {
                     fill_rectangle(image, x + column * scale, y + row * scale, scale, scale, color);
                 }

@@ -62,7 +62,7 @@ Legend legend_for(std::uint32_t color_mode, const glm::vec2& range, const glm::v
 std::vector<double> round_ticks(double low, double high, int wanted)
 {
     std::vector<double> ticks;
-    if (!(std::abs(high - low) > 0.0) || wanted < 1) {
+    if (!(std::abs(high - low) > 0.0) || !std::isfinite(high - low) || wanted < 1) {
         return ticks;
     }
     const auto [first, last] = std::minmax(low, high);
@@ -73,15 +73,17 @@ std::vector<double> round_ticks(double low, double high, int wanted)
         step = factor * power >= raw * 0.999 ? factor * power : step;
     }
     const double slack = 1e-9 * (last - first) / step; // ends that are round themselves belong to the ticks
-    for (double i = std::ceil(first / step - slack); i <= std::floor(last / step + slack); ++i) {
-        ticks.push_back(i * step + 0.0); // never "-0"
+    const double begin = std::ceil(first / step - slack);
+    const int count = static_cast<int>(std::floor(last / step + slack) - begin) + 1;
+    for (int i = 0; i < count; ++i) {
+        ticks.push_back((begin + i) * step + 0.0); // never "-0"
     }
     return ticks;
 }
 
 void draw_legend(Image& image, const Legend& legend)
 {
-    const std::uint32_t scale = std::max(image.height / 360u, 1u);
+    const std::int64_t scale = std::max(image.height / 360u, 1u);
     const std::int64_t margin = 10 * scale;
     const std::int64_t bar_width = 150 * scale;
     const std::int64_t bar_height = 8 * scale;
@@ -105,7 +107,7 @@ void draw_legend(Image& image, const Legend& legend)
         const std::int64_t x = left + std::llround((tick - legend.range.x) / span * static_cast<double>(bar_width));
         fill_rectangle(image, x - scale / 2, bar_top + bar_height, scale, 2 * scale, ink);
         const std::string label = fmt::format("{:g}", tick);
-        const std::int64_t at = std::max<std::int64_t>(x - text_width(label, scale) / 2, scale);
+        const std::int64_t at = std::max(x - text_width(label, scale) / 2, scale);
         draw_text(image, at, bar_top + bar_height + 3 * scale, label, scale, ink);
     }
     if (!legend.below.empty()) {

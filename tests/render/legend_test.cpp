@@ -50,7 +50,7 @@ TEST(LegendTest, TextOutsideThePictureIsCutOff)
     render::draw_text(image, 15, 8, "888888", 2, {0, 0, 0});
     EXPECT_EQ(image.rgba.size(), 4u * 20 * 10);
     EXPECT_TRUE(std::any_of(image.rgba.begin(), image.rgba.end(), [](std::uint8_t v) { return v == 0; }));
-    EXPECT_EQ(render::text_width("abc", 2), 34u);
+    EXPECT_EQ(render::text_width("abc", 2), 34);
 }
 
 TEST(LegendTest, ALegendStaysInItsCornerAndTooSmallPicturesStayAsTheyAre)
