@@ -15,6 +15,6 @@ namespace meltpoint {
 /// A mesh filled with about 16,000 particles of fluid and dropped from 0.4 times its size into a box scaled to it.
 /// Viscosity and frame rate follow its size (Froude's similarity), so that a thimble and a house splash alike. Throws
 /// Input for a mesh that encloses no volume or is not 0.001 to 2000 m large.
-[[nodiscard]] Scene mesh_scene(const std::string& mesh);
+[[nodiscard]] Scene mesh_scene(const std::string& name);
 
 } // namespace meltpoint
