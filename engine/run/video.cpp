@@ -29,8 +29,10 @@ std::filesystem::path partial_path(const std::filesystem::path& path)
 std::vector<std::string> ffmpeg_arguments(const std::filesystem::path& output, std::uint32_t width,
                                           std::uint32_t height, double frame_rate)
 {
-    return {"ffmpeg", "-y", "-loglevel", "error", "-f", "rawvideo", "-pixel_format", "rgba", "-video_size",
-            fmt::format("{}x{}", width, height), "-framerate", fmt::format("{}", frame_rate), "-i", "-",
+    return {"ffmpeg", "-y", "-loglevel", "error",
+            "-xerror", // or a disk that fills up while the file is closed would still end in exit code 0
+            "-f", "rawvideo", "-pixel_format", "rgba", "-video_size", fmt::format("{}x{}", width, height), "-framerate",
+            fmt::format("{}", frame_rate), "-i", "-",
             // Most players want even sizes and 4:2:0 chroma.
             "-vf", "pad=ceil(iw/2)*2:ceil(ih/2)*2", "-pix_fmt", "yuv420p", "-crf", "18", "-movflags", "+faststart",
             "file:" + output.string()}; // or ffmpeg would take a colon in a path for the end of a protocol's name
