@@ -29,6 +29,13 @@ std::size_t terminal_columns()
     return known ? size.ws_col : 80;
 }
 
+/// A full disk or a closed pipe behind stderr is no reason to end the work: what cannot be written is lost.
+void write_to_stderr(const std::string& text)
+{
+    static_cast<void>(std::fwrite(text.data(), 1, text.size(), stderr));
+    std::fflush(stderr);
+}
+
 /// "0:07", "12:30", "3:00:00".
 std::string clock_text(double seconds)
 {
@@ -70,12 +77,10 @@ void Progress::advance(std::string_view detail)
     ++done_;
     const Clock::time_point now = Clock::now();
     if (style_ == Style::Lines) {
-        fmt::print(stderr, "{} {}/{}{}{}\n", label_, done_, total_, detail.empty() ? "" : "  ", detail);
+        write_to_stderr(fmt::format("{} {}/{}{}{}\n", label_, done_, total_, detail.empty() ? "" : "  ", detail));
     } else if (style_ == Style::Bar && (!bar_is_showing || now - last_drawn_ >= REDRAW_INTERVAL)) {
         const double seconds = std::chrono::duration<double>(now - start_).count();
-        fmt::print(stderr, "{}{}", CLEAR_LINE,
-                   progress_bar_line(label_, done_, total_, seconds, detail, terminal_columns() - 1));
-        std::fflush(stderr);
+        write_to_stderr(CLEAR_LINE + progress_bar_line(label_, done_, total_, seconds, detail, terminal_columns() - 1));
         last_drawn_ = now;
         bar_is_showing = true;
     }
@@ -91,8 +96,7 @@ void Progress::finish()
 void clear_progress_line()
 {
     if (bar_is_showing.exchange(false)) {
-        fmt::print(stderr, "{}", CLEAR_LINE);
-        std::fflush(stderr);
+        write_to_stderr(CLEAR_LINE);
     }
 }
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <chrono>
+#include <cstdio>
 #include <cstdlib>
 
 #include <fcntl.h>
@@ -53,6 +54,24 @@ TEST(Progress, QuietWritesNothing)
         progress.finish();
     }
     EXPECT_EQ(testing::internal::GetCapturedStderr(), "");
+}
+
+TEST(Progress, GoesOnWhereStderrCannotBeWritten)
+{
+    const int real_stderr = dup(STDERR_FILENO);
+    const int full = open("/dev/full", O_WRONLY);
+    ASSERT_GE(full, 0);
+    dup2(full, STDERR_FILENO);
+    EXPECT_NO_THROW({
+        Progress progress("frame", 2, false);
+        progress.advance("0.1 s");
+        log_warning("beware");
+        progress.advance();
+    });
+    dup2(real_stderr, STDERR_FILENO);
+    close(real_stderr);
+    close(full);
+    std::clearerr(stderr);
 }
 
 /// What a function writes to stderr while that is a terminal.
