@@ -51,7 +51,10 @@ std::vector<std::string> size_overrides(const std::string& text)
 std::filesystem::path default_folder(const std::string& scene_name)
 {
     std::string folder = scene_name;
-    std::replace(folder.begin(), folder.end(), '/', '_');
+    const auto is_awkward = [](char c) {
+        return c == '/' || static_cast<unsigned char>(c) < 0x20 || c == 0x7f;
+    };
+    std::replace_if(folder.begin(), folder.end(), is_awkward, '_');
     return std::filesystem::path("out") / (folder == "." || folder == ".." ? "_" : folder);
 }
 
