@@ -228,7 +228,7 @@ std::vector<SceneKey> make_scene_keys()
 {
     const auto k = [](auto... arguments) { return key<Scene>(arguments...); };
     return {
-        k("name", FIELD(name), "", Range{1, 200}, "what to call the scene"),
+        k("name", FIELD(name), "", Range{1, 200}, "what to call the scene and the folder of its frames; left out, a file goes by its own name"),
         k("description", FIELD(description), "", Range{0, 10000}, "what it shows"),
         choice<Scene>("solver", FIELD(solver), {{"wcsph", Solver::Wcsph}}, "weakly compressible SPH"),
         choice<Scene>("kernel", FIELD(kernel), {{"paper", SphKernel::Paper}, {"wendland", SphKernel::Wendland}},

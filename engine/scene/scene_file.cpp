@@ -379,7 +379,12 @@ Scene parse_scene(std::string_view toml, const std::string& source_name, const s
 
 Scene read_scene_file(const std::filesystem::path& path, std::span<const std::string> overrides)
 {
-    return parse_scene(read_text(path), path.string(), path.parent_path(), overrides);
+    Scene scene = parse_scene(read_text(path), path.string(), path.parent_path(), overrides);
+    const std::string stem = path.stem().string();
+    if (scene.name == Scene{}.name && accepts(find_key(scene_keys(), "name")->rule, {stem})) {
+        scene.name = stem;
+    }
+    return scene;
 }
 
 std::string write_scene(const Scene& scene)

@@ -348,6 +348,18 @@ TEST(SceneFileOnDisk, ReadsFiles)
     EXPECT_EQ(std::get<MeshShape>(scene.fluids[0].shape).mesh, (folder / "a.obj").string());
 }
 
+TEST(SceneFileOnDisk, ANamelessSceneIsCalledAsItsFile)
+{
+    const test::ScratchFolder folder;
+    test::write_bytes(folder / "tall wave.v2.toml", BLOCK);
+    test::write_bytes(folder / "named.toml", "name = \"other\"\n" + std::string(BLOCK));
+    test::write_bytes(folder / "\xff.toml", BLOCK); // no UTF-8
+    EXPECT_EQ(read_scene_file(folder / "tall wave.v2.toml").name, "tall wave.v2");
+    EXPECT_EQ(read_scene_file(folder / "tall wave.v2.toml", std::vector<std::string>{"name=mine"}).name, "mine");
+    EXPECT_EQ(read_scene_file(folder / "named.toml").name, "other");
+    EXPECT_EQ(read_scene_file(folder / "\xff.toml").name, "untitled");
+}
+
 TEST(SceneFileOnDisk, SaysWhyAFileCannotBeRead)
 {
     const test::ScratchFolder folder;
