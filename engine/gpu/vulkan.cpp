@@ -18,7 +18,7 @@ std::string_view describe(VkResult result)
     case VK_ERROR_INITIALIZATION_FAILED:
         return "the driver failed to initialize";
     case VK_ERROR_INCOMPATIBLE_DRIVER:
-        return "no compatible Vulkan driver was found";
+        return "no Vulkan driver was found (mesa-vulkan-drivers brings a software device)";
     case VK_ERROR_LAYER_NOT_PRESENT:
         return "a requested layer is not installed";
     case VK_ERROR_EXTENSION_NOT_PRESENT:

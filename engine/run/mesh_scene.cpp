@@ -3,11 +3,13 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <optional>
 
 #include <fmt/ranges.h>
 
 #include "core/error.h"
 #include "core/nearest_name.h"
+#include "geometry/builtin_meshes.h"
 #include "geometry/volume_sampling.h"
 #include "run/load_mesh.h"
 #include "scene/scene_file.h"
@@ -85,7 +87,9 @@ Scene find_scene(const std::string& name, std::span<const std::string> overrides
     if (std::filesystem::exists(status) || is_scene_file(name)) {
         return read_scene_file(name, overrides);
     }
-    const auto nearest = nearest_name(name, builtin);
+    const std::span<const std::string_view> meshes = builtin_mesh_names();
+    const auto nearest = std::ranges::find(meshes, name) != meshes.end() ? std::optional("builtin:" + name)
+                                                                         : nearest_name(name, builtin);
     throw input_error("there is no scene or mesh \"{}\": neither a file nor a built-in scene ({}){}", name,
                       fmt::join(builtin, ", "), nearest ? fmt::format("; did you mean \"{}\"?", *nearest) : "");
 }

@@ -48,6 +48,7 @@ TEST(FindScene, SuggestsTheNearestName)
 {
     EXPECT_EQ(refusal("teapot_dorp"), "there is no scene or mesh \"teapot_dorp\": neither a file nor a built-in scene "
                                       "(dam_break, drop, teapot_drop); did you mean \"teapot_drop\"?");
+    EXPECT_TRUE(refusal("teapot").ends_with("; did you mean \"builtin:teapot\"?")) << refusal("teapot");
     EXPECT_EQ(refusal(""), "there is no scene or mesh \"\": neither a file nor a built-in scene (dam_break, drop, "
                            "teapot_drop)");
 }
