@@ -1,4 +1,5 @@
 // Whole steps: against the twin, against what is exact, and against themselves.
+#include <algorithm>
 #include <cstdlib>
 
 #include "conformance/pass_comparison.h"
@@ -35,6 +36,19 @@ TEST_F(Steps, FiftyStepsKeepTheTwinsEnergyAndCenter)
         expect_all(conformance::compare_steps(context(), lattice_state({10, 12, 10}, glm::vec3(0.5f * test_spacing)),
                                               test_settings(kernel), 50));
     }
+}
+
+// No energy to be relative to: a lattice at rest without gravity, and a particle all alone, whose energy is 0 / 0.
+TEST_F(Steps, RestWithoutGravityConforms)
+{
+    sim::SimulationSettings settings = test_settings(shared::KERNEL_WENDLAND);
+    settings.params.gravity = glm::vec3(0.0f);
+    ParticleSet lattice = lattice_state({6, 6, 6}, glm::vec3(0.5f * test_spacing));
+    std::ranges::fill(lattice.velocity, glm::vec3(0.0f));
+    expect_all(conformance::compare_steps(context(), lattice, settings, 12));
+    ParticleSet alone;
+    add_particle(alone, glm::vec3(0.5f), glm::vec3(0.0f));
+    expect_all(conformance::compare_steps(context(), alone, settings, 12));
 }
 
 TEST_F(Steps, FreeFallIsExact)
