@@ -64,6 +64,21 @@ void check_width(const Scene& scene)
     }
 }
 
+/// Positions are floats: far from the origin they are too coarse for small particles.
+void warn_of_coarse_positions(const Scene& scene, std::vector<std::string>& warnings)
+{
+    constexpr double tolerable = 1e-3; // of a spacing
+    const glm::vec3 reach = glm::max(glm::abs(scene.domain.min), glm::abs(scene.domain.max));
+    const float farthest = std::max({reach.x, reach.y, reach.z});
+    const double coarseness = static_cast<double>(farthest) * std::numeric_limits<float>::epsilon();
+    if (coarseness > tolerable * static_cast<double>(scene.particles.spacing)) {
+        warnings.push_back(fmt::format("the domain reaches to {:.4g} m from the origin, where positions are good to "
+                                       "{:.2g} m, {:.2g} particle spacings: move it closer to the origin",
+                                       farthest, coarseness,
+                                       coarseness / static_cast<double>(scene.particles.spacing)));
+    }
+}
+
 float frame_steps_dt(double bound, double frame_rate)
 {
     const double steps = std::ceil(1.0 / (frame_rate * bound));
@@ -157,6 +172,7 @@ FluidSettings fluid_settings(const Scene& scene, const ParticleSet& particles)
                         "Pa s): the run may break down",
                         dt, bounds.viscosity, largest_viscosity(scene)));
     }
+    warn_of_coarse_positions(scene, settings.warnings);
     // Spiky is not poly6's gradient: the paper's kernels feed in energy that only viscosity takes out again (measured:
     // energy falls from about 0.005 rho c0 d on).
     const double calming = 0.005 * heaviest_rest_density(scene) * static_cast<double>(params.speed_of_sound) *

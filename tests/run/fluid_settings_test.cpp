@@ -170,6 +170,19 @@ TEST(FluidSettings, WarnsWhereThePapersKernelsNeedMoreViscosity)
     EXPECT_TRUE(settings_of(scene).warnings.empty());
 }
 
+TEST(FluidSettings, WarnsWherePositionsAreTooCoarse)
+{
+    Scene scene = falling_block();
+    scene.domain.max.x = 800.0f; // 800 m x 2^-23 = 0.95 thousandths of a spacing
+    EXPECT_TRUE(settings_of(scene).warnings.empty());
+    scene.domain.min.z = -900.0f;
+    const std::vector<std::string> warnings = settings_of(scene).warnings;
+    ASSERT_EQ(warnings.size(), 1u);
+    EXPECT_NE(warnings[0].find("the domain reaches to 900 m from the origin, where positions are good to 0.00011 m"),
+              std::string::npos)
+        << warnings[0];
+}
+
 std::string refusal(const Scene& scene)
 {
     try {
