@@ -1,6 +1,9 @@
 #include "interrupt.h"
 
 #include <csignal>
+#include <string_view>
+
+#include <unistd.h>
 
 namespace meltpoint::program {
 
@@ -10,9 +13,13 @@ namespace {
 std::atomic<bool> interrupted{false};
 static_assert(std::atomic<bool>::is_always_lock_free);
 
+/// A frame can take minutes: silence would look like a program that does not listen.
+constexpr std::string_view NOTICE = "\ninterrupted: ends after this frame; once more ends at once\n";
+
 void on_signal(int signal_number)
 {
     interrupted = true;
+    [[maybe_unused]] const ssize_t written = write(STDERR_FILENO, NOTICE.data(), NOTICE.size());
     std::signal(signal_number, SIG_DFL);
 }
 
