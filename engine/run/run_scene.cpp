@@ -1,9 +1,14 @@
 #include "run/run_scene.h"
 
+#include <cerrno>
 #include <chrono>
 #include <cmath>
 #include <memory>
 #include <optional>
+
+#include <fcntl.h>
+#include <sys/file.h>
+#include <unistd.h>
 
 #include <fmt/format.h>
 
@@ -120,6 +125,30 @@ void make_folders(const RunOptions& options)
     }
 }
 
+/// Keeps a second run from writing its frames among those of this one. The system lets go of it however a run ends.
+class FolderLock {
+public:
+    explicit FolderLock(const std::filesystem::path& folder)
+        : descriptor_(open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC))
+    {
+        if (descriptor_ >= 0 && flock(descriptor_, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK) {
+            close(descriptor_);
+            throw input_error("{}: another run is writing into this folder", folder.string());
+        } // file systems without locks have to do without
+    }
+    ~FolderLock()
+    {
+        if (descriptor_ >= 0) {
+            close(descriptor_);
+        }
+    }
+    FolderLock(const FolderLock&) = delete;
+    FolderLock& operator=(const FolderLock&) = delete;
+
+private:
+    int descriptor_;
+};
+
 /// Takes away the frames of an earlier run, some of which this run might leave behind among its own.
 void remove_old_frames(const RunOptions& options)
 {
@@ -193,6 +222,7 @@ RunSummary run_scene(const gpu::Context& context, const Scene& scene, const RunO
     const Clock::time_point start = Clock::now();
     check_output(scene, options);
     make_folders(options);
+    const FolderLock lock(options.out);
     std::optional<VideoWriter> video;
     if (!options.video.empty()) {
         video.emplace(options.video, scene.render.width, scene.render.height, playback_rate(scene));
@@ -215,14 +245,17 @@ RunSummary run_scene(const gpu::Context& context, const Scene& scene, const RunO
                              initial.size(), dt, simulation.params().speed_of_sound, context.info().name));
     }
 
-    if (options.force) { // not before all else is known to work: a mistyped scene leaves the old frames alone
+    const auto stopped = [&] {
+        return options.stop != nullptr && options.stop->load();
+    };
+    if (options.force && !stopped()) { // not before all else is known to work: a mistyped scene leaves the old frames
         remove_old_frames(options);
     }
     RunSummary summary{.particles = static_cast<std::uint32_t>(initial.size())};
     bool warned_of_coincident = false;
     Progress progress("frames", scene.time.frames, options.quiet);
     for (std::uint32_t frame = 0; frame < scene.time.frames; ++frame) {
-        if (options.stop != nullptr && options.stop->load()) {
+        if (stopped()) {
             summary.stopped = true;
             break;
         }
