@@ -429,11 +429,11 @@ TEST_F(Cli, OddPathsAndNames)
     EXPECT_EQ(files("a b/ü/日本").size(), 3u);
     test::write_bytes(
         path("-x.toml"),
-        "name = \"../up/../../x\"\n[[fluid]]\nshape = \"block\"\nmin = [0, 0, 0]\nmax = [0.3, 0.3, 0.3]\n");
+        "name = \"../up/../../\\u001bx\\n\"\n[[fluid]]\nshape = \"block\"\nmin = [0, 0, 0]\nmax = [0.3, 0.3, 0.3]\n");
     EXPECT_EQ(
         run({"render", "./-x.toml", "--frames", "1", "--size", "96x54", "--set", "particles.spacing=0.1"}).exit_code,
         0);
-    EXPECT_EQ(files("out"), (Arguments{".._up_.._.._x"}));
+    EXPECT_EQ(files("out"), (Arguments{".._up_.._..__x_"}));
     test::write_bytes(path("file"), "");
     expect_one_sentence(run(quick("file")), 1, "cannot make the folder file");
     expect_one_sentence(run(quick("file/below")), 1, "cannot make the folder file/below");
@@ -548,6 +548,19 @@ TEST_F(Cli, AFullDiskIsOneSentenceAndLeavesNoHalfFile)
     EXPECT_TRUE(is_png(bytes("out/frame_0000.png")));
 }
 
+TEST_F(Cli, AVideoThatTheDiskCannotHoldIsAFailure)
+{
+    if (shell("command -v ffmpeg").exit_code != 0) {
+        GTEST_SKIP() << "no ffmpeg here";
+    }
+    const Result result = shell("ulimit -f 4; exec \"$P\" render dam_break --out out --size 96x54 --frames 60 --set "
+                                "particles.spacing=0.1 --video clip.mp4");
+    EXPECT_EQ(result.exit_code, 1) << result.err;
+    EXPECT_NE(result.err.find("error: writing clip.mp4 failed"), std::string::npos) << result.err;
+    EXPECT_EQ(files("."), (Arguments{"out"}));
+    EXPECT_EQ(files("out").size(), 60u);
+}
+
 TEST_F(Cli, CtrlCFinishesTheFrameAndLeavesWholeFiles)
 {
     const pid_t child = start({"render", "dam_break", "--out", "out", "--size", "96x54", "--frames", "100000",
@@ -556,9 +569,15 @@ TEST_F(Cli, CtrlCFinishesTheFrameAndLeavesWholeFiles)
     while (!fs::exists(path("out/frame_0001.png")) && std::chrono::steady_clock::now() < deadline) {
         std::this_thread::sleep_for(std::chrono::milliseconds(5));
     }
+    const Result second =
+        shell("exec \"$P\" render dam_break --out out --force --size 96x54 --set particles.spacing=0.1 2>second");
+    EXPECT_EQ(second.exit_code, 2);
+    EXPECT_EQ(bytes("second"), "error: out: another run is writing into this folder\n");
     kill(child, SIGINT);
     const Result result = finish(child);
     EXPECT_EQ(result.exit_code, 130) << result.err;
+    EXPECT_NE(result.err.find("\ninterrupted: ends after this frame; once more ends at once\n"), std::string::npos)
+        << result.err;
     EXPECT_NE(result.err.find("interrupted after "), std::string::npos) << result.err;
     std::size_t frames = 0;
     std::size_t particles = 0;
