@@ -291,6 +291,31 @@ mutation "surface samples: the half beyond the triangle is not folded back" \
     'u + v > 1.0' \
     'u + v > 2.0' \
     unit_tests 'SurfaceSampling.PointsAreUniformOnTheirTriangles'
+mutation "surface samples: blue noise does not tell the two sides of a plate apart" \
+    engine/geometry/sample_elimination.cpp \
+    '< opposite' \
+    '< -2.0f' \
+    unit_tests 'SurfaceSampling.BothSidesOfAThinPlateAreCovered'
+mutation "surface samples: the weights of sample elimination fall off slowly" \
+    engine/geometry/sample_elimination.cpp \
+    'see(other, fourth * fourth)' \
+    'see(other, closeness)' \
+    unit_tests 'SurfaceSampling.BlueNoiseKeepsItsDistance'
+mutation "surface samples: all strata are the first" \
+    engine/geometry/stratified_sampling.cpp \
+    'stratum * per_stratum +' \
+    '0 * per_stratum +' \
+    unit_tests 'SurfaceSampling.StratifiedPoints*'
+mutation "solids: a row's winding number changes the wrong way" \
+    engine/geometry/row_crossings.cpp \
+    'sum > 0.0 ? -1 : 1' \
+    'sum > 0.0 ? 1 : -1' \
+    unit_tests 'MeshSolid.TheMaskAgrees*'
+mutation "solids: the holes of a mesh do not count" \
+    engine/geometry/winding_thresholds.cpp \
+    'std::ceil(0.5 + lowest - margin)' \
+    'std::ceil(0.5 + highest + margin)' \
+    unit_tests 'MeshSolid.TheMaskAgrees*'
 mutation "splats: discs are projected along the view axis instead of intersected" \
     shaders/include/splat.glsl \
     'float t = dot(center - ray.origin, normal) / dot(ray.direction, normal);' \

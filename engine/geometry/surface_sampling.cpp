@@ -2,8 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "core/error.h"
+#include "core/parallel_for.h"
+#include "geometry/sample_elimination.h"
 #include "geometry/stratified_sampling.h"
 #include "geometry/surface_candidates.h"
 
@@ -37,6 +40,21 @@ std::size_t wanted_count(const SurfaceRequest& request, double area)
     return static_cast<std::size_t>(count);
 }
 
+std::vector<std::uint32_t> choose_blue_noise(const TriangleMesh& mesh, const SurfaceCandidates& candidates,
+                                             std::size_t count, double area)
+{
+    std::vector<glm::vec3> points(elimination_candidates(count));
+    std::vector<glm::vec3> normals(points.size());
+    parallel_for(points.size(), [&](std::size_t i) {
+        const SurfaceCandidates::Candidate candidate = candidates[i];
+        points[i] = candidate.position;
+        normals[i] = glm::vec3(glm::normalize(area_vector(mesh, candidate.triangle)));
+    });
+    // 2 r_max: points this far apart on a plane are the corners of equilateral triangles.
+    const double spacing = 2.0 * std::sqrt(area / (2.0 * std::numbers::sqrt3 * static_cast<double>(count)));
+    return eliminate_samples({.points = points, .normals = normals, .keep = count, .spacing = spacing});
+}
+
 } // namespace
 
 SurfaceSamples sample_surface(const TriangleMesh& mesh, const SurfaceRequest& request)
@@ -55,7 +73,8 @@ SurfaceSamples sample_surface(const TriangleMesh& mesh, const SurfaceRequest& re
             choose_stratified(candidates.positions(candidates_a_stratum * count), candidates_a_stratum, request.seed));
         break;
     case SurfaceMethod::BlueNoise:
-        throw runtime_error("blue noise is not there yet");
+        samples.cloud = candidates.cloud(choose_blue_noise(mesh, candidates, count, samples.area));
+        break;
     }
     return samples;
 }

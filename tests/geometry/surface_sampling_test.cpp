@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
+#include <filesystem>
+#include <string_view>
 
 #include <gtest/gtest.h>
 #include <tbb/global_control.h>
@@ -10,7 +12,9 @@
 #include "core/error.h"
 #include "geometry/alias_table.h"
 #include "geometry/builtin_meshes.h"
+#include "geometry/point_cells.h"
 #include "geometry/teapot.h"
+#include "io/mesh_import.h"
 
 namespace meltpoint {
 namespace {
@@ -122,7 +126,7 @@ TEST(SurfaceSampling, StratifiedPointsFollowTheAreaMoreCloselyThanChance)
 TEST(SurfaceSampling, ASpacingGivesEachPointItsSquare)
 {
     const TriangleMesh cube = builtin_mesh("cube");
-    for (const SurfaceMethod method : {SurfaceMethod::Random, SurfaceMethod::Stratified}) {
+    for (const SurfaceMethod method : {SurfaceMethod::Random, SurfaceMethod::Stratified, SurfaceMethod::BlueNoise}) {
         const SurfaceSamples samples = sample_surface(cube, {method, PointSpacing{0.1}});
         EXPECT_EQ(samples.cloud.size(), 600u);
         EXPECT_DOUBLE_EQ(samples.area, 6.0);
@@ -132,6 +136,88 @@ TEST(SurfaceSampling, ASpacingGivesEachPointItsSquare)
         EXPECT_THROW((void)sample_surface(cube, {method, PointSpacing{0.0}}), Error);
         EXPECT_THROW((void)sample_surface(cube, {method, PointSpacing{1e-9}}), Error);
     }
+}
+
+/// Smallest distance of two points, over that of the corners of equilateral triangles (2 r_max, Lagae & Dutre 2008).
+/// Only pairs for which compare(i, j) holds.
+template <class Compare>
+double relative_radius(const SurfaceSamples& samples, const Compare& compare)
+{
+    const std::vector<glm::vec3>& points = samples.cloud.positions;
+    const double densest = 2.0 * std::sqrt(samples.area / (2.0 * std::sqrt(3.0) * double(points.size())));
+    const PointCells cells(points, densest);
+    double nearest = densest;
+    for (std::size_t place = 0; place < points.size(); ++place) {
+        const std::uint32_t i = cells.order()[place];
+        cells.visit_near(place, [&](std::uint32_t other) {
+            const std::uint32_t j = cells.order()[other];
+            if (i != j && compare(i, j)) {
+                nearest = std::min(nearest, double(glm::distance(points[i], points[j])));
+            }
+        });
+    }
+    return nearest / densest;
+}
+
+TEST(SurfaceSampling, BlueNoiseKeepsItsDistance)
+{
+    const auto all = [](std::uint32_t, std::uint32_t) {
+        return true;
+    };
+    for (const std::string_view name : {"sphere", "torus", "cube"}) {
+        const TriangleMesh mesh = builtin_mesh(name);
+        for (const std::size_t count : {100u, 4000u}) {
+            for (const std::uint64_t seed : {1u, 2u, 3u}) {
+                const SurfaceSamples samples =
+                    sample_surface(mesh, {SurfaceMethod::BlueNoise, PointCount{count}, seed});
+                ASSERT_EQ(samples.cloud.size(), count);
+                EXPECT_GE(relative_radius(samples, all), 0.7) << name << " " << count << " " << seed;
+            }
+        }
+    }
+}
+
+TEST(SurfaceSampling, BlueNoiseOfTheBunnyKeepsItsDistance)
+{
+    const std::filesystem::path file =
+        std::filesystem::path(MELTPOINT_SOURCE_DIR) / "../shared/meshes/stanford-bunny.obj";
+    if (!std::filesystem::exists(file)) {
+        GTEST_SKIP() << "there is no " << file;
+    }
+    const TriangleMesh bunny = import_mesh(file);
+    const SurfaceSamples samples = sample_surface(bunny, {SurfaceMethod::BlueNoise, PointCount{10'000}});
+    const auto same_side = [&](std::uint32_t i, std::uint32_t j) {
+        return glm::dot(area_vector(bunny, samples.cloud.triangle[i]), area_vector(bunny, samples.cloud.triangle[j])) >
+               0.0;
+    };
+    EXPECT_NEAR(samples.area, 0.0571288, 0.01 * 0.0571288);
+    EXPECT_GE(relative_radius(samples, same_side), 0.7);
+}
+
+TEST(SurfaceSampling, BlueNoiseFollowsTheAreaMoreCloselyThanChance)
+{
+    const TriangleMesh torus = builtin_mesh("torus");
+    const SurfaceSamples samples = sample_surface(torus, {SurfaceMethod::BlueNoise, PointCount{8000}});
+    EXPECT_GE(goodness_of_fit(areas_of(torus), samples.cloud.triangle), 0.999);
+}
+
+TEST(SurfaceSampling, BothSidesOfAThinPlateAreCovered)
+{
+    TriangleMesh plate = builtin_mesh("cube");
+    for (glm::vec3& position : plate.positions) {
+        position.y *= 1e-3f;
+    }
+    const SurfaceSamples samples = sample_surface(plate, {SurfaceMethod::BlueNoise, PointCount{2000}});
+    const std::vector<glm::vec3>& points = samples.cloud.positions;
+    std::size_t above = 0;
+    for (const glm::vec3& point : points) {
+        above += point.y > 0.0f ? 1 : 0;
+    }
+    EXPECT_NEAR(double(above), 1000.0, 30.0);
+    const auto same_side = [&](std::uint32_t i, std::uint32_t j) {
+        return points[i].y * points[j].y > 0.0f;
+    };
+    EXPECT_GE(relative_radius(samples, same_side), 0.68); // the narrow sides disturb a little
 }
 
 TEST(SurfaceSampling, PointsAreUniformOnTheirTriangles)
@@ -188,26 +274,45 @@ TEST(SurfaceSampling, WithoutVertexNormalsOrAtCreasesTheTriangleSpeaks)
     }
 }
 
-TEST(SurfaceSampling, IsTheSameOnAnyNumberOfThreadsAndForAnyCount)
+TEST(SurfaceSampling, IsTheSameOnAnyNumberOfThreads)
 {
     const TriangleMesh mesh = builtin_mesh("torus");
-    const auto run = [&](std::size_t threads, std::size_t count) {
-        const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, threads);
-        return random_points(mesh, count, 7);
-    };
-    const PointCloud one = run(1, 20'000);
-    const PointCloud two = run(2, 20'000);
-    EXPECT_EQ(std::memcmp(one.positions.data(), two.positions.data(), one.size() * sizeof(glm::vec3)), 0);
-    EXPECT_EQ(std::memcmp(one.normals.data(), two.normals.data(), one.size() * sizeof(glm::vec3)), 0);
-    EXPECT_EQ(one.triangle, two.triangle);
-    EXPECT_EQ(run(2, 100).positions[99], one.positions[99]);
-    EXPECT_NE(random_points(mesh, 100, 8).positions[0], one.positions[0]);
-    EXPECT_EQ(random_points(mesh, 0, 7).size(), 0u);
+    for (const SurfaceMethod method : {SurfaceMethod::Random, SurfaceMethod::Stratified, SurfaceMethod::BlueNoise}) {
+        const auto run = [&](std::size_t threads, std::uint64_t seed) {
+            const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, threads);
+            return sample_surface(mesh, {method, PointCount{5000}, seed}).cloud;
+        };
+        const PointCloud one = run(1, 7);
+        for (const std::size_t threads : {2u, 7u}) {
+            const PointCloud other = run(threads, 7);
+            ASSERT_EQ(other.size(), one.size());
+            EXPECT_EQ(std::memcmp(one.positions.data(), other.positions.data(), one.size() * sizeof(glm::vec3)), 0);
+            EXPECT_EQ(std::memcmp(one.normals.data(), other.normals.data(), one.size() * sizeof(glm::vec3)), 0);
+            EXPECT_EQ(one.triangle, other.triangle);
+        }
+        EXPECT_NE(run(1, 8).positions[0], one.positions[0]);
+    }
+}
+
+TEST(SurfaceSampling, RandomPointsBeginWithTheSameWhateverTheirNumber)
+{
+    const TriangleMesh mesh = builtin_mesh("torus");
+    EXPECT_EQ(random_points(mesh, 100, 7).positions[99], random_points(mesh, 20'000, 7).positions[99]);
+}
+
+TEST(SurfaceSampling, NoPointsAreNoPoints)
+{
+    for (const SurfaceMethod method : {SurfaceMethod::Random, SurfaceMethod::Stratified, SurfaceMethod::BlueNoise}) {
+        EXPECT_EQ(sample_surface(builtin_mesh("cube"), {method, PointCount{0}}).cloud.size(), 0u);
+    }
 }
 
 TEST(SurfaceSampling, AnAbsurdCountIsRefused)
 {
-    EXPECT_THROW((void)random_points(builtin_mesh("cube"), std::size_t{1} << 40, 1), Error);
+    for (const SurfaceMethod method : {SurfaceMethod::Random, SurfaceMethod::Stratified, SurfaceMethod::BlueNoise}) {
+        const SurfaceRequest request{method, PointCount{std::size_t{1} << 40}};
+        EXPECT_THROW((void)sample_surface(builtin_mesh("cube"), request), Error);
+    }
 }
 
 } // namespace
