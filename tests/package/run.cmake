@@ -13,7 +13,7 @@ run(${CMAKE_COMMAND} -G Ninja -S ${CMAKE_CURRENT_LIST_DIR} -B ${scratch}/build
     -DCMAKE_PREFIX_PATH=${prefix} -DCMAKE_BUILD_TYPE=${CONFIG}
     -DCMAKE_CXX_COMPILER=${CXX_COMPILER} -DCMAKE_CXX_FLAGS=${CXX_FLAGS})
 run(${CMAKE_COMMAND} --build ${scratch}/build)
-run(${scratch}/build/consumer)
+execute_process(COMMAND ${scratch}/build/consumer WORKING_DIRECTORY ${scratch} COMMAND_ERROR_IS_FATAL ANY COMMAND_ECHO STDOUT)
 
 # A package that names the tree it was built in breaks once that tree is gone.
 file(GLOB_RECURSE package_files ${prefix}/*.cmake)
