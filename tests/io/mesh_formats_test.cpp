@@ -64,7 +64,7 @@ std::string refusal(const std::string& bytes, const std::string& file)
         (void)parse(bytes, file);
     } catch (const Error& error) {
         EXPECT_EQ(error.kind(), ErrorKind::Input);
-        const std::string message = error.what();
+        std::string message = error.what();
         EXPECT_TRUE(message.starts_with(file)) << message;
         EXPECT_LT(message.size(), 500u) << message;
         EXPECT_TRUE(std::all_of(message.begin(), message.end(), [](unsigned char c) { return c >= ' '; })) << message;
@@ -138,7 +138,7 @@ TEST_P(MeshFormat, JunkIsRefused)
     const std::string good = format().write(builtin_mesh("cube"));
     for (int file = 0; file < 500; ++file) {
         std::string bad = good;
-        const std::size_t place = static_cast<unsigned char>(byte()) * 7919u % bad.size();
+        const std::size_t place = static_cast<unsigned char>(byte()) * std::size_t{7919} % bad.size();
         switch (file % 3) {
         case 0:
             bad[place] = byte();
@@ -237,7 +237,8 @@ TEST(MeshFile, PolygonsAreTriangulatedOrRefused)
         "y\r\nproperty double z\r\nelement face 2\r\nproperty list uint8 uint vertex_index\r\n"
         "end_header\r\n";
     for (const TriangleMesh& mesh :
-         {parse("OFF 9 2 0\n" + vertices + faces, "m.off"), parse(ply_header + vertices + faces, "m.ply")}) {
+         {parse(fmt::format("OFF 9 2 0\n{}{}", vertices, faces), "m.off"),
+          parse(fmt::format("{}{}{}", ply_header, vertices, faces), "m.ply")}) {
         EXPECT_EQ(mesh.triangles.size(), 5u);
         EXPECT_NEAR(surface_area(mesh), 4.0, 1e-6);
         for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
@@ -481,7 +482,7 @@ TEST(GltfFile, StripsAndFans)
         text.replace(text.find("\"indices\": 0"), 12, fmt::format("\"indices\": 0, \"mode\": {}", mode));
         const TriangleMesh mesh = parse(text, "m.gltf");
         EXPECT_EQ(mesh.triangles.size(), 2u);
-        EXPECT_NEAR(surface_area(mesh), mode == 5 ? 1.0 : 1.0, 1e-6);
+        EXPECT_NEAR(surface_area(mesh), 1.0, 1e-6);
     }
 }
 
