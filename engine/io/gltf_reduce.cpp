@@ -81,8 +81,8 @@ int json_depth(std::span<const std::uint8_t> text)
 
 class GltfReducer {
 public:
-    GltfReducer(std::span<const std::uint8_t> bytes, const std::filesystem::path& path)
-        : file_size_(bytes.size()), path_(path)
+    GltfReducer(std::span<const std::uint8_t> bytes, std::filesystem::path path)
+        : file_size_(bytes.size()), path_(std::move(path))
     {
         std::span<const std::uint8_t> text = bytes;
         std::span<const std::uint8_t> bin;

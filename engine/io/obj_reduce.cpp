@@ -110,7 +110,7 @@ private:
         for (std::string_view word = take_word(line); !word.empty(); word = take_word(line), ++corners) {
             char before = '/';
             for (const char c : word) {
-                if (c == '0' ? before == '/' || before == '-' : !(c >= '1' && c <= '9') && c != '/' && c != '-') {
+                if (c == '0' ? before == '/' || before == '-' : (c < '1' || c > '9') && c != '/' && c != '-') {
                     throw error("a corner of a face is no index (they count from 1, or from -1 backward)");
                 }
                 before = c;

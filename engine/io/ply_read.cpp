@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <bit>
+#include <cmath>
 #include <cstring>
 #include <optional>
 #include <string_view>
@@ -80,9 +81,10 @@ public:
 private:
     std::uint64_t list_length(const PlyProperty& property)
     {
-        const double length = value(*property.count_type);
+        const double length = value(property.count_type.value_or(PlyType::Uint8));
         const std::size_t least = encoding_ == PlyEncoding::Ascii ? 1 : byte_size(property.type);
-        if (!(length >= 0.0 && length <= static_cast<double>(bytes_.size() / least))) {
+        const auto most = static_cast<double>(bytes_.size()) / static_cast<double>(least);
+        if (length < 0.0 || length > most || std::isnan(length)) {
             throw input_error("{}: a list of {:g} values is longer than the file", name_, length);
         }
         return static_cast<std::uint64_t>(length);
@@ -148,7 +150,7 @@ std::uint8_t color_of(double value, PlyType type)
     const bool is_float = type == PlyType::Float32 || type == PlyType::Float64;
     const bool is_wide = type == PlyType::Int16 || type == PlyType::Uint16;
     const double scaled = is_float ? 255.0 * value : is_wide ? value / 257.0 : value;
-    return scaled > 0.0 ? static_cast<std::uint8_t>(std::min(scaled, 255.0) + 0.5) : 0; // not a number: 0
+    return scaled > 0.0 ? static_cast<std::uint8_t>(std::lround(std::min(scaled, 255.0))) : 0; // not a number: 0
 }
 
 void read_vertices(Body& body, const PlyElement& element, const std::string& name, PlyContent& content)

@@ -68,7 +68,7 @@ bool are_colors(const std::vector<glm::vec3>& triples)
 
 std::uint8_t channel(double value)
 {
-    return static_cast<std::uint8_t>(std::clamp(value, 0.0, 255.0) + 0.5);
+    return static_cast<std::uint8_t>(std::lround(std::clamp(value, 0.0, 255.0)));
 }
 
 PointCloud read_xyz(std::span<const std::uint8_t> bytes, const std::string& name)

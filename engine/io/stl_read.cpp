@@ -96,7 +96,7 @@ TriangleMesh read_ascii(std::span<const std::uint8_t> bytes, const std::string& 
             check_triangles(mesh.triangles.size(), name);
         }
         if (!same_ignoring_case(word, "endsolid")) {
-            throw text.error("expected \"facet\" or \"endsolid\"");
+            throw text.error(R"(expected "facet" or "endsolid")");
         }
         text.next_line();
     }

@@ -17,7 +17,7 @@ namespace {
 /// More than a chunk of rows, with every attribute.
 PointCloud full_cloud(std::size_t count = 70'001)
 {
-    PointCloud cloud = sample_surface(builtin_mesh("torus"), {.amount = PointCount{count}, .seed = 5}).cloud;
+    PointCloud cloud = sample_surface(builtin_mesh("torus"), {.amount = PointCount{count}}).cloud;
     for (std::size_t i = 0; i < count; ++i) {
         cloud.colors.emplace_back(i % 256, i / 256 % 256, 7);
     }
