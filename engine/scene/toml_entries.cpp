@@ -4,7 +4,25 @@
 #include <cctype>
 #include <utility>
 
+namespace {
+
+/// What toml++ takes for granted, but a file can break: thrown instead of its assertions.
+struct BrokenAssumption {};
+
+[[noreturn]] void throw_broken_assumption()
+{
+    throw BrokenAssumption();
+}
+
+} // namespace
+
+// toml++ 3.3 asserts that a key follows "[" and whatever else it does not check, and where NDEBUG is defined it lets
+// the compiler assume so: "[,a]" would end a debug build, and make anything happen in a release.
+#pragma push_macro("NDEBUG")
+#undef NDEBUG
+#define TOML_ASSERT(expr) (static_cast<bool>(expr) ? static_cast<void>(0) : throw_broken_assumption())
 #include <toml++/toml.h>
+#pragma pop_macro("NDEBUG")
 
 #include "core/error.h"
 
@@ -124,6 +142,24 @@ std::size_t line_of_endless_key(std::string_view text)
     return 0;
 }
 
+/// The first line that begins with "[" and no key behind it, counting from 1; 1 where there is none.
+std::size_t line_of_broken_header(std::string_view text)
+{
+    std::size_t line = 1;
+    for (std::size_t at = 0; at < text.size(); ++line) {
+        const std::size_t end = std::min(text.find('\n', at), text.size());
+        const std::string_view row = text.substr(at, end - at);
+        const std::size_t bracket = row.find_first_not_of(" \t");
+        const std::size_t key = row.find_first_not_of("[ \t", bracket);
+        if (bracket != std::string_view::npos && row[bracket] == '[' && key != std::string_view::npos &&
+            !is_bare(row[key]) && row[key] != '"' && row[key] != '\'') {
+            return line;
+        }
+        at = end + 1;
+    }
+    return 1;
+}
+
 toml::table parse_toml(std::string_view text, const std::string& source_name)
 {
     if (const std::size_t line = line_of_endless_key(text); line > 0) {
@@ -135,6 +171,8 @@ toml::table parse_toml(std::string_view text, const std::string& source_name)
     } catch (const toml::parse_error& error) {
         throw input_error("{}:{}:{}: {}", source_name, error.source().begin.line, error.source().begin.column,
                           error.description());
+    } catch (const BrokenAssumption&) {
+        throw input_error("{}:{}: \"[\" is followed by no name of a table", source_name, line_of_broken_header(text));
     }
 }
 
