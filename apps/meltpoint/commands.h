@@ -11,6 +11,7 @@ struct GlobalOptions {
 
 /// Each adds one subcommand with its flags; running it sets exit_code.
 void add_render(CLI::App& app, const GlobalOptions& global, int& exit_code);
+void add_sample(CLI::App& app, const GlobalOptions& global, int& exit_code);
 void add_compare(CLI::App& app, const GlobalOptions& global, int& exit_code);
 void add_info(CLI::App& app, const GlobalOptions& global, int& exit_code);
 

@@ -5,6 +5,8 @@
 
 #include <unistd.h>
 
+#include "exit_codes.h"
+
 namespace meltpoint::program {
 
 namespace {
@@ -23,13 +25,27 @@ void on_signal(int signal_number)
     std::signal(signal_number, SIG_DFL);
 }
 
+void on_signal_quietly(int signal_number)
+{
+    interrupted = true;
+    std::signal(signal_number, SIG_DFL);
+}
+
+void exit_on_signal(int /*signal_number*/)
+{
+    _exit(exit_interrupted);
+}
+
 } // namespace
 
-InterruptGuard::InterruptGuard()
+InterruptGuard::InterruptGuard(OnInterrupt on_interrupt)
 {
     interrupted = false;
-    std::signal(SIGINT, on_signal);
-    std::signal(SIGTERM, on_signal);
+    void (*const handler)(int) = on_interrupt == OnInterrupt::FinishFrame ? on_signal
+                                 : on_interrupt == OnInterrupt::Stop      ? on_signal_quietly
+                                                                          : exit_on_signal;
+    std::signal(SIGINT, handler);
+    std::signal(SIGTERM, handler);
 }
 
 InterruptGuard::~InterruptGuard()

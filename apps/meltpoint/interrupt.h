@@ -4,10 +4,16 @@
 
 namespace meltpoint::program {
 
-/// Turns Ctrl-C (SIGINT) and SIGTERM into a flag for as long as it lives; a second Ctrl-C ends the program at once.
+enum class OnInterrupt {
+    FinishFrame, ///< sets the flag and says what happens next; a second Ctrl-C ends the program at once
+    Stop,        ///< sets the flag, for work that ends soon
+    Exit,        ///< ends the program at once, with the exit code of an interrupted run: where nothing is half written
+};
+
+/// Decides what Ctrl-C (SIGINT) and SIGTERM do for as long as it lives.
 class InterruptGuard {
 public:
-    InterruptGuard();
+    explicit InterruptGuard(OnInterrupt on_interrupt = OnInterrupt::FinishFrame);
     ~InterruptGuard();
     InterruptGuard(const InterruptGuard&) = delete;
     InterruptGuard& operator=(const InterruptGuard&) = delete;

@@ -23,6 +23,7 @@
 #include "run/fluid_settings.h"
 #include "run/frame_statistics.h"
 #include "run/frame_view.h"
+#include "run/output_files.h"
 #include "run/scene_particles.h"
 #include "run/video.h"
 #include "sim/simulation.h"
@@ -46,25 +47,6 @@ std::filesystem::path frame_path(const RunOptions& options, std::uint32_t frame)
 std::filesystem::path particles_path(const RunOptions& options, std::uint32_t frame)
 {
     return options.out / fmt::format("particles_{:04}.ply", frame);
-}
-
-void refuse_existing(const std::filesystem::path& path)
-{
-    std::error_code error;
-    if (std::filesystem::exists(path, error)) {
-        throw input_error("{} exists: give --force to replace it, or another place", path.string());
-    }
-}
-
-/// A folder or a device is nothing to replace, --force or not.
-void refuse_special(const std::filesystem::path& path)
-{
-    std::error_code error;
-    const std::filesystem::file_status status = std::filesystem::status(path, error);
-    if (std::filesystem::exists(status) && !std::filesystem::is_regular_file(status)) {
-        throw input_error("{} is {}, not a file to be written", path.string(),
-                          std::filesystem::is_directory(status) ? "a folder" : "a device, a pipe or a socket");
-    }
 }
 
 /// Two outputs of one name would replace each other.
@@ -118,10 +100,7 @@ void make_folders(const RunOptions& options)
 {
     for (const std::filesystem::path& folder :
          {options.out, options.video.parent_path(), options.stats.parent_path()}) {
-        std::error_code error;
-        if (!folder.empty() && !std::filesystem::create_directories(folder, error) && error) {
-            throw runtime_error("cannot make the folder {}: {}", folder.string(), error.message());
-        }
+        make_folder(folder);
     }
 }
 

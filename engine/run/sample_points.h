@@ -1,0 +1,43 @@
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "geometry/mesh_facts.h"
+#include "geometry/point_cloud.h"
+#include "geometry/surface_sampling.h"
+#include "geometry/volume_sampling.h"
+
+namespace meltpoint {
+
+struct SampleRequest {
+    std::string source;  ///< "builtin:NAME", or the path of a mesh or of points
+    bool volume = false; ///< points inside instead of on the surface
+    SurfaceMethod method = SurfaceMethod::Random;
+    Lattice lattice = Lattice::Cubic;
+    SampleAmount amount = PointCount{100'000};
+    std::uint64_t seed = 1;
+    double rest_density = 1000.0; ///< kg/m^3
+    bool measure = false;         ///< the volume too where only the surface is sampled, which can take longer than that
+    std::function<void(std::string_view)> on_stage; ///< called when a stage is done, with its name; may be empty
+};
+
+struct SampledPoints {
+    PointCloud cloud;
+    MeshFacts facts;
+    std::optional<double> volume;                        ///< m^3, by winding number
+    double spacing = 0.0;                                ///< m: sqrt(area / N) on a surface, the lattice's in a volume
+    std::optional<double> particle_mass;                 ///< kg: rest density * volume / N
+    std::vector<std::pair<std::string, double>> seconds; ///< by stage
+};
+
+/// Samples a mesh: loads it, takes points on its surface or inside, and measures. The same request gives the same
+/// points on any number of threads. Errors as load_mesh, sample_surface and sample_volume.
+[[nodiscard]] SampledPoints sample_points(const SampleRequest& request);
+
+} // namespace meltpoint
