@@ -33,6 +33,8 @@ required_packages=(
 check_packages=(
     clang-16                   # the second compiler
     clang-tidy-16              # static analysis
+    gmsh                       # opens what `meltpoint sample` writes (tests/apps/readers.py)
+    python3-vtk9               # the same, with what ParaView reads with
 )
 
 # --- functions ---------------------------------------------------------------------------------------------------------
