@@ -26,8 +26,7 @@ namespace meltpoint {
 
 namespace {
 
-// --- OBJ and glTF: assimp, fed with what was checked and reduced to the surface
-// ------------------------------------------
+// --- OBJ and glTF: assimp, fed with what was checked and reduced to the surface ------------------
 
 constexpr std::array<std::string_view, 2> importer_names = {"Wavefront Object Importer", "glTF2 Importer"};
 constexpr int deepest_node = 1100; // gltf_reduce.h allows 1000, below which assimp may put some of its own
@@ -150,8 +149,7 @@ TriangleMesh read_through_assimp(const std::vector<std::uint8_t>& bytes, const c
     return mesh;
 }
 
-// --- the formats
-// -----------------------------------------------------------------------------------------------------------
+// --- the formats ---------------------------------------------------------------------------------
 
 using Bytes = std::span<const std::uint8_t>;
 

@@ -68,8 +68,7 @@ bool export_point_cloud(const std::filesystem::path& path, const PointCloud& clo
     return true;
 }
 
-// --- PLY (Turk 1994)
-// -----------------------------------------------------------------------------------------------------
+// --- PLY (Turk 1994) -----------------------------------------------------------------------------
 
 bool write_ply(AtomicFile& file, RowWriter& rows, const PointCloud& cloud)
 {
@@ -98,8 +97,7 @@ bool write_ply(AtomicFile& file, RowWriter& rows, const PointCloud& cloud)
     });
 }
 
-// --- Gmsh 2.2, binary (Geuzaine & Remacle 2009; "MSH file format" of its manual)
-// -------------------------------------------
+// --- Gmsh 2.2, binary (Geuzaine & Remacle 2009; "MSH file format" of its manual) -----------------
 
 bool write_msh(AtomicFile& file, RowWriter& rows, const PointCloud& cloud)
 {
@@ -138,8 +136,7 @@ bool write_msh(AtomicFile& file, RowWriter& rows, const PointCloud& cloud)
     return done;
 }
 
-// --- VTK XML PolyData ("VTK file formats" of its user's guide)
-// --------------------------------------------------------------
+// --- VTK XML PolyData ("VTK file formats" of its user's guide) -----------------------------------
 
 bool write_vtp(AtomicFile& file, RowWriter& rows, const PointCloud& cloud)
 {
@@ -191,8 +188,7 @@ bool write_vtp(AtomicFile& file, RowWriter& rows, const PointCloud& cloud)
     return done;
 }
 
-// --- XYZ
-// -------------------------------------------------------------------------------------------------------------------
+// --- XYZ -----------------------------------------------------------------------------------------
 
 bool write_xyz(AtomicFile& /*file*/, RowWriter& rows, const PointCloud& cloud)
 {

@@ -47,8 +47,7 @@ TriangleMesh read_binary(std::span<const std::uint8_t> bytes, std::size_t count,
     return mesh;
 }
 
-// --- ASCII: "solid NAME", then facets, then "endsolid NAME", any number of times
-// -----------------------------------------
+// --- ASCII: "solid NAME", then facets, then "endsolid NAME", any number of times -----------------
 
 void expect(TextScanner& text, std::string_view keyword)
 {

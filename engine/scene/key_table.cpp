@@ -8,8 +8,7 @@ namespace meltpoint {
 
 namespace {
 
-// --- C++ types <-> values
-// ---------------------------------------------------------------------------------------------
+// --- C++ types <-> values ------------------------------------------------------------------------
 
 double number(const SceneValue& value)
 {
@@ -116,8 +115,7 @@ constexpr bool is_optional = false;
 template <class T>
 constexpr bool is_optional<std::optional<T>> = true;
 
-// --- building keys
-// ----------------------------------------------------------------------------------------------------
+// --- building keys -------------------------------------------------------------------------------
 
 struct Range {
     double min = 0.0;
@@ -211,8 +209,7 @@ FluidKey optional_of(std::string_view shape, FluidKey fluid_key)
     return fluid_key;
 }
 
-// --- the tables
-// -------------------------------------------------------------------------------------------------------
+// --- the tables ----------------------------------------------------------------------------------
 
 // clang-format off
 // NOLINTBEGIN(bugprone-macro-parentheses): members, not expressions

@@ -23,8 +23,7 @@ constexpr std::size_t LARGEST_FILE = std::size_t{16} << 20; // bytes
 constexpr std::string_view FLUID = "fluid";
 constexpr std::string_view BUILTIN_MESH = "builtin:";
 
-// --- names of keys and tables
-// -----------------------------------------------------------------------------------------
+// --- names of keys and tables --------------------------------------------------------------------
 
 /// "physics" of "physics.viscosity", empty for a top-level key.
 std::string_view table_of(std::string_view path)
@@ -125,8 +124,7 @@ std::string hint(std::string_view path, std::size_t fluid_count)
                              fmt::join(siblings, ", "));
 }
 
-// --- reading
-// ----------------------------------------------------------------------------------------------------------
+// --- reading -------------------------------------------------------------------------------------
 
 [[noreturn]] void fail(const TomlEntry& entry, const std::string& what)
 {
@@ -353,8 +351,7 @@ std::string read_text(const std::filesystem::path& path)
     return text;
 }
 
-// --- writing
-// ----------------------------------------------------------------------------------------------------------
+// --- writing -------------------------------------------------------------------------------------
 
 template <class Owner>
 std::string line(const Key<Owner>& key, const Owner& owner)

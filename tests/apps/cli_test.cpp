@@ -59,8 +59,7 @@ std::vector<std::string> split(const std::string& text, char separator)
     return parts;
 }
 
-// --- help, version, usage
-// ---------------------------------------------------------------------------------------------
+// --- help, version, usage ------------------------------------------------------------------------
 
 TEST_F(Cli, HelpNamesEverySubcommandAndTheExitCodes)
 {
@@ -170,8 +169,7 @@ TEST_F(Cli, BadInputIsOneSentenceAndExitsWithTwo)
     EXPECT_TRUE(fs::exists("/dev/full") && !fs::is_regular_file("/dev/full"));
 }
 
-// --- info
-// -------------------------------------------------------------------------------------------------------------
+// --- info ----------------------------------------------------------------------------------------
 
 TEST_F(Cli, InfoAsJsonIsJsonAlone)
 {
@@ -211,8 +209,7 @@ TEST_F(Cli, WithoutADeviceOneSentence)
     EXPECT_FALSE(fs::exists(path("out")));
 }
 
-// --- render: files and streams
-// ----------------------------------------------------------------------------------------
+// --- render: files and streams -------------------------------------------------------------------
 
 TEST_F(Cli, RenderWritesNumberedFramesWithParticlesBesideThem)
 {
@@ -385,8 +382,7 @@ TEST_F(Cli, ValidationIsSilentOnTheDefaultScene)
     EXPECT_EQ(result.exit_code, 0) << result.err;
 }
 
-// --- render: video
-// ----------------------------------------------------------------------------------------------------
+// --- render: video -------------------------------------------------------------------------------
 
 TEST_F(Cli, VideoIsWrittenWhereFfmpegIs)
 {
@@ -408,8 +404,7 @@ TEST_F(Cli, WithoutFfmpegOneSentence)
     EXPECT_TRUE(files("out").empty());
 }
 
-// --- render: things that go wrong while it runs
-// -----------------------------------------------------------------------
+// --- render: things that go wrong while it runs --------------------------------------------------
 
 TEST_F(Cli, ABreakdownNamesStepAndParticleAndKeepsTheFramesBefore)
 {
@@ -483,8 +478,7 @@ TEST_F(Cli, CtrlCFinishesTheFrameAndLeavesWholeFiles)
     EXPECT_EQ(result.out.find("out: " + std::to_string(frames) + " frames"), 0u) << result.out;
 }
 
-// --- compare
-// ----------------------------------------------------------------------------------------------------------
+// --- compare -------------------------------------------------------------------------------------
 
 TEST_F(Cli, CompareAgreesAndPrintsJsonAlone)
 {

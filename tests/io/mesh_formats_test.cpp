@@ -196,8 +196,7 @@ TEST_P(MeshFormat, AnotherFormatsContentIsRefused)
 INSTANTIATE_TEST_SUITE_P(All, MeshFormat, testing::Range(std::size_t{0}, formats().size()),
                          [](const auto& param) { return formats()[param.param].name; });
 
-// --- counts that a file announces but cannot hold
-// ----------------------------------------------------------------------
+// --- counts that a file announces but cannot hold ------------------------------------------------
 
 TEST(MeshFile, HugeCountsAreRefusedBeforeAnythingIsAllocated)
 {
@@ -254,8 +253,7 @@ TEST(MeshFile, PolygonsAreTriangulatedOrRefused)
     EXPECT_NE(refusal(many + face, "m.off").find("corners"), std::string::npos);
 }
 
-// --- PLY
-// ---------------------------------------------------------------------------------------------------------------
+// --- PLY -----------------------------------------------------------------------------------------
 
 TEST(PlyFile, OtherElementsAndPropertiesAreSkipped)
 {
@@ -320,8 +318,7 @@ TEST(PlyFile, BrokenHeadersAreRefused)
         std::string::npos);
 }
 
-// --- STL, OFF, OBJ
-// -----------------------------------------------------------------------------------------------------
+// --- STL, OFF, OBJ -------------------------------------------------------------------------------
 
 TEST(StlFile, BinaryFilesMayBeginWithSolidAndEndLate)
 {
@@ -385,8 +382,7 @@ TEST(ObjFile, ColorsContinuationsAndWeights)
     EXPECT_NEAR(surface_area(mesh), 1.0, 1e-6);
 }
 
-// --- glTF
-// --------------------------------------------------------------------------------------------------------------
+// --- glTF ----------------------------------------------------------------------------------------
 
 TEST(GltfFile, TransformsOfNodesAreAppliedAndInstancesCounted)
 {

@@ -117,8 +117,7 @@ TEST_P(SphKernel, GradientSumsToZeroOverASymmetricNeighborhood)
     EXPECT_LT(glm::length(sum), 1e-14 * length);
 }
 
-// --- lattice moments
-// --------------------------------------------------------------------------------------------------
+// --- lattice moments -----------------------------------------------------------------------------
 
 TEST_P(SphKernel, LatticeMomentsTendToOne)
 {
@@ -160,8 +159,7 @@ TEST(LatticeMoments, RefusesSupportRatiosThatHaveNoMeaning)
     EXPECT_THROW(static_cast<void>(lattice_moments(shared::KERNEL_PAPER, std::nan(""), 1.0)), Error);
 }
 
-// --- walls
-// ------------------------------------------------------------------------------------------------------------
+// --- walls ---------------------------------------------------------------------------------------
 
 // Integral of f(r) over the half space beyond a plane at that distance.
 double half_space_integral(double distance, double h, const std::function<double(double)>& f)

@@ -42,8 +42,7 @@ protected:
 INSTANTIATE_TEST_SUITE_P(Kernels, ReferenceForces, testing::Values(shared::KERNEL_PAPER, shared::KERNEL_WENDLAND),
                          [](const auto& test) { return test.param == shared::KERNEL_PAPER ? "Paper" : "Wendland"; });
 
-// --- pressure
-// ---------------------------------------------------------------------------------------------------------
+// --- pressure ------------------------------------------------------------------------------------
 
 TEST_P(ReferenceForces, PressureOfTwoParticlesMatchesTheFormula)
 {
@@ -105,8 +104,7 @@ TEST_P(ReferenceForces, CoincidentParticlesHaveNoGradientAndAreCounted)
     }
 }
 
-// --- viscosity
-// --------------------------------------------------------------------------------------------------------
+// --- viscosity -----------------------------------------------------------------------------------
 
 TEST_P(ReferenceForces, ViscosityOfTwoParticlesMatchesTheFormula)
 {
@@ -137,8 +135,7 @@ TEST_P(ReferenceForces, ViscosityOfAParabolaIsItsSecondDerivative)
     expect_near(a.value, {0.0, 2.0 / 1000.0 * 14.0, 0.0}, 1e-5 * a.magnitude);
 }
 
-// --- surface tension
-// --------------------------------------------------------------------------------------------------
+// --- surface tension -----------------------------------------------------------------------------
 
 TEST_P(ReferenceForces, TensionOfTwoParticlesMatchesTheFormula)
 {
@@ -184,8 +181,7 @@ TEST_P(ReferenceForces, ColorGradientOfAHalfSpaceIsOneSidedDelta)
     EXPECT_NEAR(rise, 0.5, 0.12); // the particles sample the inner half of the rise
 }
 
-// --- walls
-// ------------------------------------------------------------------------------------------------------------
+// --- walls ---------------------------------------------------------------------------------------
 
 TEST_P(ReferenceForces, LatticeFillingABoxDoesNotNoticeTheWalls)
 {
@@ -300,8 +296,7 @@ TEST_P(ReferenceForces, ContactSpringPushesAndNeverPulls)
     expect_near(contact(4), rate * rate * reach * glm::dvec3(-1.0, 1.0, 0.0), 1e-4 * rate * rate * reach);
 }
 
-// --- all together
-// -----------------------------------------------------------------------------------------------------
+// --- all together --------------------------------------------------------------------------------
 
 TEST_P(ReferenceForces, InnerForcesOfADisorderedFluidConserveMomentum)
 {

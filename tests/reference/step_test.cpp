@@ -102,8 +102,7 @@ TEST(ReferenceStep, HalvingTheStepQuartersTheError)
     EXPECT_NEAR(coarse / fine, 4.0, 0.2);
 }
 
-// --- faults
-// -----------------------------------------------------------------------------------------------------------
+// --- faults --------------------------------------------------------------------------------------
 
 struct Faults : testing::Test {
     Settings settings = make_settings(shared::KERNEL_PAPER, D, 2.0);
@@ -176,8 +175,7 @@ TEST_F(Faults, FirstStepAndSmallestIdAreKept)
     EXPECT_EQ(state.status.step, 12u);
 }
 
-// --- measures
-// ---------------------------------------------------------------------------------------------------------
+// --- measures ------------------------------------------------------------------------------------
 
 TEST(Measure, SumsOfTwoParticles)
 {

@@ -383,8 +383,7 @@ TEST(SceneFileOnDisk, SaysWhyAFileCannotBeRead)
     EXPECT_NE(error("/dev/zero").find("larger than 16 MiB"), std::string::npos);
 }
 
-// --- the whole table
-// --------------------------------------------------------------------------------------------------
+// --- the whole table -----------------------------------------------------------------------------
 
 float random_number(Random& random, const ValueRule& rule)
 {
@@ -588,8 +587,7 @@ TEST(SceneCheck, WorksOnScenesBuiltInCode)
     EXPECT_NE(complaint_of([&] { validate_scene(scene); }).find("key \"fluid.0.mesh\""), std::string::npos);
 }
 
-// --- the scenes of apps/scenes
-// ----------------------------------------------------------------------------------------
+// --- the scenes of apps/scenes -------------------------------------------------------------------
 
 const std::filesystem::path scenes_folder = std::filesystem::path(MELTPOINT_SOURCE_DIR) / "apps/scenes";
 
