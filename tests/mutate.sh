@@ -173,27 +173,42 @@ mutation "kernels in GLSL: constant of the color Laplacian" \
     conformance_tests '*PassConformance.EachForceAlone/RandomPaper'
 mutation "kernels in GLSL: coincident particles push each other" \
     shaders/include/sph_kernel.glsl \
-    'vec2(r2 > size.coincident2 ? u * u * inverse_r : 0.0, u)' \
-    'vec2(u * u * inverse_r, u)' \
+    'return r2 > size.coincident2' \
+    'return r2 >= 0.0' \
     conformance_tests '*PassConformance.EachForceAlone/NearlyCoincident*'
 
 # --- neighbors ----------------------------------------------------------------------------------------------------------
 
 mutation "neighbors: rows end one cell too early" \
     shaders/include/neighbor_walk.glsl \
-    'walk.last + offset + reach + 1' \
-    'walk.last + offset + reach' \
+    'walk.last + reach + 1)' \
+    'walk.last + reach)' \
     conformance_tests '*PassConformance.AllPasses/Random*'
 mutation "neighbors: candidates in overlapping rows of a tile count twice" \
     shaders/include/neighbor_walk.glsl \
-    'walk.visited_end = end' \
-    'walk.visited_end = 0u' \
+    'max(cell_start[cells.x], walk.visited_end)' \
+    'cell_start[cells.x]' \
     conformance_tests '*PassConformance.AllPasses/Splash*'
-mutation "neighbors: the last row of cells is not searched" \
+mutation "neighbors: the last rows of cells are not searched" \
     shaders/include/neighbor_walk.glsl \
-    'row < 9' \
-    'row < 8' \
+    'lessThanEqual(walk.offset, walk.high)' \
+    'lessThan(walk.offset, walk.high)' \
     conformance_tests '*PassConformance.AllPasses/Random*'
+mutation "neighbors: particles of a wide tile walk together with all" \
+    shaders/include/neighbor_walk.glsl \
+    '(walk.particle == int(k) ? x[k] : NOWHERE)' \
+    'x[k]' \
+    conformance_tests '*PassConformance.EveryTileSize/SprayAboveAFloor*'
+mutation "neighbors: of a wide tile the last particle does not walk" \
+    shaders/include/neighbor_walk.glsl \
+    'walk.particle + 1 == int(TILE)' \
+    'walk.particle + 2 == int(TILE)' \
+    conformance_tests '*PassConformance.EveryTileSize/SprayAboveAFloor*'
+mutation "neighbors: a wide tile's particles visit again what they have visited together" \
+    shaders/include/neighbor_walk.glsl \
+    'together && !is_wide ? range.y : walk.visited_end' \
+    'together && !is_wide ? range.y : 0u' \
+    conformance_tests '*PassConformance.EveryTileSize/WideHalfway*'
 mutation "neighbors: velocities are not moved into the sorted order" \
     shaders/sim/reorder.comp \
     'sorted_velocity[slot] = velocity[source]' \
@@ -204,8 +219,8 @@ mutation "neighbors: velocities are not moved into the sorted order" \
 
 mutation "density: in terms of the rest density's mass instead of the particle's" \
     shaders/sim/density.comp \
-    'mass = position[i].w' \
-    'mass = position[tile.first].w' \
+    'mass = own[k].w' \
+    'mass = own[0].w' \
     conformance_tests 'MaterialConformance.TwoRestDensities'
 mutation "state equation: Tait without its exponent in the stiffness" \
     shaders/sim/density.comp \
@@ -219,8 +234,8 @@ mutation "state equation: never clamped" \
     conformance_tests '*PassConformance.AllPasses/Splash*'
 mutation "forces: pressure attracts" \
     shaders/sim/forces.comp \
-    'force[k] += (pressure_term[k]' \
-    'force[k] -= (pressure_term[k]' \
+    '+= pressure * offset' \
+    '+= -pressure * offset' \
     conformance_tests '*PassConformance.EachForceAlone/Two*'
 mutation "forces: pressure not symmetric" \
     shaders/sim/forces.comp \
@@ -229,8 +244,8 @@ mutation "forces: pressure not symmetric" \
     conformance_tests 'Steps.MomentumIsConserved'
 mutation "forces: viscosity speeds up" \
     shaders/sim/forces.comp \
-    'vj - u[k]' \
-    'u[k] - vj' \
+    'vj - v[k]' \
+    'v[k] - vj' \
     conformance_tests '*PassConformance.EachForceAlone/Two*'
 mutation "forces: surface tension points outward" \
     shaders/sim/forces.comp \
@@ -244,8 +259,8 @@ mutation "forces: gravity left out" \
     conformance_tests 'Steps.FreeFallIsExact'
 mutation "walls: images do not move as mirrors do" \
     shaders/sim/forces.comp \
-    'u[k] = signs * v[k]' \
-    'u[k] = v[k]' \
+    'v[k] *= flips' \
+    'v[k] *= 1.0' \
     conformance_tests 'Steps.OneStepIsTheTwins'
 mutation "walls: the force of an image is not reflected back" \
     shaders/sim/forces.comp \
@@ -259,13 +274,13 @@ mutation "walls: half as far to the image" \
     conformance_tests '*PassConformance.AllPasses/LatticeOnTheFloor*'
 mutation "walls: the contact spring's damping pushes" \
     shaders/sim/forces.comp \
-    'spring - params.contact_damping * speed' \
-    'spring + params.contact_damping * speed' \
+    'spring - params.contact_damping' \
+    'spring + params.contact_damping' \
     conformance_tests '*PassConformance.AllPasses/InTheCorners*'
 mutation "walls: no friction" \
     shaders/sim/forces.comp \
-    'a -= params.wall_viscosity' \
-    'a -= 0.0 * params.wall_viscosity' \
+    'friction = params.wall_viscosity' \
+    'friction = 0.0 * params.wall_viscosity' \
     conformance_tests '*PassConformance.EachForceAlone/InTheCorners*'
 mutation "integrator: a whole kick before the drift" \
     shaders/sim/kick_drift.comp \

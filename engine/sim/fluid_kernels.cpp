@@ -36,7 +36,7 @@ std::array<gpu::SpecConstant, 4> constants(std::uint32_t tile, const FluidOption
 
 std::uint32_t default_tile(const gpu::DeviceInfo& device)
 {
-    return device.software() ? 8 : 1;
+    return device.software() ? 4 : 1;
 }
 
 FluidKernels::FluidKernels(const gpu::Context& context, const FluidOptions& options)

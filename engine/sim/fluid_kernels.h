@@ -14,7 +14,7 @@ struct FluidOptions {
     std::uint32_t tile = 0; ///< particles an invocation, 1 to 16; 0 chooses for the device
 };
 
-/// 8 on software devices, where loading a candidate costs more than using it; 1 on GPUs.
+/// 4 on software devices, where loading a candidate costs more than using it; 1 on GPUs.
 [[nodiscard]] std::uint32_t default_tile(const gpu::DeviceInfo& device);
 
 /// One kernel a pass of the fluid step (shaders/sim).

@@ -33,18 +33,21 @@ float density_shape(float r2, KernelSize size)
     return u2 * u2 * (1.0 + 4.0 * q);
 }
 
-// x: -W' / (gradient_scale r), so that the gradient is -x * (vector from j to i), zero for coincident pairs;
+// Whether a pair has a direction; coincident pairs have none, and no gradient.
+bool has_direction(float r2, KernelSize size) { return r2 > size.coincident2; }
+
+// x: -W' / (gradient_scale r), so that the gradient is -x * (vector from j to i) for pairs that have a direction;
 // y: viscous Laplacian / viscosity_scale.
 vec2 force_shapes(float r2, KernelSize size)
 {
     if (KERNEL == KERNEL_PAPER) {
         float inverse_r = inversesqrt(max(r2, size.coincident2));
         float u = max(1.0 - r2 * inverse_r * size.inverse_h, 0.0);
-        return vec2(r2 > size.coincident2 ? u * u * inverse_r : 0.0, u);
+        return vec2(u * u * inverse_r, u);
     }
     float u = max(1.0 - sqrt(r2) * size.inverse_h, 0.0);
     float u3 = u * u * u;
-    return vec2(r2 > size.coincident2 ? u3 * size.inverse_h : 0.0, u3);
+    return vec2(u3 * size.inverse_h, u3);
 }
 
 // The color field's kernel. x: -W' / (color_gradient_scale r); y: Laplacian / color_laplacian_scale.

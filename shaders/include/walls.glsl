@@ -4,12 +4,13 @@
 // reflected: an image of j is as far from i as j is from the image of i. C++ twin: engine/reference/walls.
 #ifndef WALLS_GLSL
 #define WALLS_GLSL
+#include "include/neighbor_walk.glsl"
 #include "include/sph_kernel.glsl"
 
 const float PI = 3.14159265358979;
 const float NO_WALL = 1e30;
-const uint IMAGES = 8u; // one bit an axis: 0 is the particle itself
-const vec3 NOWHERE = vec3(1e9); // an image that does not exist: out of everyone's reach
+
+// The number of an image has one bit an axis: 0 is the particle itself.
 
 // Along each axis the nearer wall: a box is at least two support radii wide, so the other one is out of reach.
 struct Walls {
@@ -41,15 +42,16 @@ vec3 image_position(vec3 x, uint image, Walls walls, float support_radius)
     return in_reach ? mix(x, 2.0 * walls.plane - x, axes) : NOWHERE;
 }
 
-// Integral of the viscous Laplacian over the half space beyond a plane at distance s, divided by viscosity_scale, in m^3.
-float half_space_viscosity(float s, float support_radius)
+// Integrals of the viscous Laplacian over the half spaces beyond planes at the distances s, divided by viscosity_scale, in
+// m^3; zero from a support radius on.
+vec3 half_space_viscosity(vec3 s, float support_radius)
 {
-    float q = min(abs(s) / support_radius, 1.0);
-    float u = 1.0 - q;
-    float u3 = u * u * u;
-    float beyond = KERNEL == KERNEL_PAPER ? PI / 6.0 * u3 * (1.0 + q) : PI / 30.0 * u3 * u * u * (1.0 + 2.0 * q);
+    vec3 q = min(abs(s) / support_radius, vec3(1.0));
+    vec3 u = 1.0 - q;
+    vec3 u3 = u * u * u;
+    vec3 beyond = KERNEL == KERNEL_PAPER ? PI / 6.0 * u3 * (1.0 + q) : PI / 30.0 * u3 * u * u * (1.0 + 2.0 * q);
     float whole = KERNEL == KERNEL_PAPER ? PI / 3.0 : PI / 15.0;
-    return (s < 0.0 ? whole - beyond : beyond) * support_radius * support_radius * support_radius;
+    return mix(beyond, whole - beyond, lessThan(s, vec3(0.0))) * support_radius * support_radius * support_radius;
 }
 
 #endif

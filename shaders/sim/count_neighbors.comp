@@ -23,20 +23,20 @@ void main()
 
     vec3 x[TILE];
     NeighborCount found[TILE];
-    Walk walk = empty_walk(params.grid_size);
     [[unroll]] for (uint k = 0u; k < TILE; ++k) {
         x[k] = position[min(first + k, last)].xyz;
-        include_position(walk, x[k], params.domain_min, params.support_radius);
         found[k] = NeighborCount(0u, 0u, 0u);
     }
 
     float support2 = params.support_radius * params.support_radius;
     float coincident2 = COINCIDENT_RATIO * COINCIDENT_RATIO * support2;
-    FOR_EACH_CANDIDATE(range, walk) {
+    vec3 present[TILE];
+    Walk walk = begin_walk(x, present, params.domain_min, params.support_radius, params.grid_size);
+    FOR_EACH_CANDIDATE(range, walk, x, present) {
         vec3 xj = position[range.x].xyz;
         uint id_j = id[range.x];
         [[unroll]] for (uint k = 0u; k < TILE; ++k) {
-            vec3 offset = x[k] - xj;
+            vec3 offset = present[k] - xj;
             float r2 = dot(offset, offset);
             bool other = range.x != first + k;
             found[k].neighbors += other && r2 < support2 ? 1u : 0u;

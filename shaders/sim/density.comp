@@ -37,7 +37,7 @@ void main()
     if (invocation_index() * TILE >= params.particle_count) {
         return;
     }
-    vec3 own[TILE];
+    vec4 own[TILE];
     Tile tile = load_tile(invocation_index(), own);
 
     float h = params.support_radius;
@@ -47,16 +47,15 @@ void main()
         sum[k] = 0.0;
     }
 
-    for (uint image = 0u; image < IMAGES; ++image) {
-        if (!has_image(tile, image)) {
-            continue;
-        }
+    FOR_EACH_IMAGE(image, tile) {
         vec3 x[TILE];
-        Walk walk = begin_image_walk(own, image, x);
-        FOR_EACH_CANDIDATE(range, walk) {
+        image_positions(own, image, x);
+        vec3 present[TILE];
+        Walk walk = begin_walk(x, present);
+        FOR_EACH_CANDIDATE(range, walk, x, present) {
             vec3 xj = load_candidate(position, range.x).xyz;
             [[unroll]] for (uint k = 0u; k < TILE; ++k) {
-                vec3 offset = x[k] - xj;
+                vec3 offset = present[k] - xj;
                 sum[k] += density_shape(dot(offset, offset), size);
             }
         }
@@ -67,7 +66,7 @@ void main()
         if (i > tile.last) {
             break;
         }
-        float mass = position[i].w;
+        float mass = own[k].w;
         float rho0 = params.rest_density[particle_material(attributes[i])];
         float rho = mass * params.density_scale * sum[k];
         float p = state_equation(rho, rho0);

@@ -26,22 +26,12 @@ layout(set = 0, binding = 8, scalar) writeonly buffer Acceleration { vec4 accele
 // Friction against walls at rest, and the contact spring.
 vec3 wall_acceleration(vec3 x, vec3 v, float rho)
 {
-    float h = params.support_radius;
     Walls walls = nearest_walls(x, params.domain_min, params.domain_max, params.wall_mask);
-    vec3 a = vec3(0.0);
-    for (int axis = 0; axis < 3; ++axis) {
-        float s = walls.distance[axis];
-        if (s >= h) {
-            continue;
-        }
-        if (s < params.contact_distance) {
-            float speed = v[axis] * walls.normal[axis];
-            float spring = params.contact_stiffness * (params.contact_distance - s);
-            a[axis] += max(spring - params.contact_damping * speed, 0.0) * walls.normal[axis];
-        }
-        a -= params.wall_viscosity / rho * params.viscosity_scale * half_space_viscosity(s, h) * v;
-    }
-    return a;
+    vec3 spring = params.contact_stiffness * (params.contact_distance - walls.distance);
+    vec3 push = max(spring - params.contact_damping * v * walls.normal, vec3(0.0)) * walls.normal;
+    vec3 viscosity = half_space_viscosity(walls.distance, params.support_radius); // zero beyond the support
+    float friction = params.wall_viscosity / rho * params.viscosity_scale * (viscosity.x + viscosity.y + viscosity.z);
+    return mix(vec3(0.0), push, lessThan(walls.distance, vec3(params.contact_distance))) - friction * v;
 }
 
 // Mueller et al. 2003: -sigma lap(c) n / |n| where the surface is, a look. n points into the fluid.
@@ -59,55 +49,59 @@ void main()
     if (invocation_index() * TILE >= params.particle_count) {
         return;
     }
-    vec3 own[TILE];
+    vec4 own[TILE];
     Tile tile = load_tile(invocation_index(), own);
 
     float h = params.support_radius;
     KernelSize size = kernel_size(h);
-    vec3 v[TILE];
+    vec3 v[TILE]; // as the present image has it
     float pressure_term[TILE]; // p V^2 gradient_scale
+    float volume[TILE];        // V
     float viscous_term[TILE];  // mu V viscosity_scale
     vec3 force[TILE];
     vec3 color_gradient[TILE];
     float color_laplacian[TILE];
     [[unroll]] for (uint k = 0u; k < TILE; ++k) {
         uint i = min(tile.first + k, tile.last);
-        v[k] = velocity[i].xyz;
-        pressure_term[k] = interaction[i].x;
-        viscous_term[k] = params.viscosity_scale * params.viscosity * interaction[i].y;
+        v[k] = load_candidate(velocity, i).xyz;
+        vec4 its_interaction = load_candidate(interaction, i);
+        pressure_term[k] = its_interaction.x;
+        volume[k] = its_interaction.y;
+        viscous_term[k] = params.viscosity_scale * params.viscosity * volume[k];
         force[k] = vec3(0.0);
         color_gradient[k] = vec3(0.0);
         color_laplacian[k] = 0.0;
     }
 
-    for (uint image = 0u; image < IMAGES; ++image) {
-        if (!has_image(tile, image)) {
-            continue;
-        }
+    vec3 signs = vec3(1.0);
+    FOR_EACH_IMAGE(image, tile) {
         // The tile, not the candidates, is reflected at the walls of the image: position, velocity, and the force back.
-        vec3 signs = image_signs(image);
         vec3 x[TILE];
-        vec3 u[TILE];
+        image_positions(own, image, x);
+        vec3 flips = signs * image_signs(image);
+        signs = image_signs(image);
         vec3 image_force[TILE];
         vec3 image_gradient[TILE];
-        Walk walk = begin_image_walk(own, image, x);
         [[unroll]] for (uint k = 0u; k < TILE; ++k) {
-            u[k] = signs * v[k];
+            v[k] *= flips;
             image_force[k] = vec3(0.0);
             image_gradient[k] = vec3(0.0);
         }
-        FOR_EACH_CANDIDATE(range, walk) {
-            vec3 xj = load_candidate(position, range.x).xyz;
-            vec3 vj = load_candidate(velocity, range.x).xyz;
-            vec2 interaction_j = load_candidate(interaction, range.x).xy;
+        vec3 present[TILE];
+        Walk walk = begin_walk(x, present);
+        FOR_EACH_CANDIDATE(range, walk, x, present) {
+            uint j = range.x;
+            vec3 xj = load_candidate(position, j).xyz;
+            vec3 vj = load_candidate(velocity, j).xyz;
+            vec2 interaction_j = load_candidate(interaction, j).xy;
             float pressure_term_j = interaction_j.x;
             float volume_j = interaction_j.y;
             [[unroll]] for (uint k = 0u; k < TILE; ++k) {
-                vec3 offset = x[k] - xj;
+                vec3 offset = present[k] - xj;
                 float r2 = dot(offset, offset);
                 vec2 shape = force_shapes(r2, size);
-                image_force[k] += (pressure_term[k] + pressure_term_j) * shape.x * offset +
-                                  viscous_term[k] * volume_j * shape.y * (vj - u[k]);
+                float pressure = has_direction(r2, size) ? (pressure_term[k] + pressure_term_j) * shape.x : 0.0;
+                image_force[k] += pressure * offset + viscous_term[k] * volume_j * shape.y * (vj - v[k]);
                 if (TENSION) {
                     vec2 color = color_shapes(r2, size);
                     image_gradient[k] -= volume_j * color.x * offset;
@@ -126,9 +120,10 @@ void main()
         if (i > tile.last) {
             break;
         }
-        float rho = position[i].w / interaction[i].y;
-        vec3 a = params.gravity + force[k] / position[i].w;
-        a += wall_acceleration(own[k], v[k], rho);
+        float mass = own[k].w;
+        float rho = mass / volume[k];
+        vec3 a = params.gravity + force[k] / mass;
+        a += wall_acceleration(own[k].xyz, signs * v[k], rho);
         if (TENSION) {
             a += tension_acceleration(params.color_gradient_scale * color_gradient[k],
                                       params.color_laplacian_scale * color_laplacian[k], rho);

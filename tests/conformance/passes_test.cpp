@@ -30,6 +30,14 @@ const std::vector<NamedState>& states()
          [] {
              return splash_state(2);
          }},
+        {"SprayAboveAFloor", // tiles so wide that their particles walk one by one
+         [] {
+             return spray_above_a_floor();
+         }},
+        {"WideHalfway", // likewise, but only in some rows
+         [] {
+             return wide_halfway();
+         }},
         {"One",
          [] {
              ParticleSet set;

@@ -82,6 +82,37 @@ inline ParticleSet random_state(std::size_t count, const glm::vec3& low, const g
     return set;
 }
 
+/// A row of far apart particles in the row of cells above one that is crowded: consecutive in the sorted order, they have
+/// hundreds of candidates between them.
+inline ParticleSet spray_above_a_floor()
+{
+    ParticleSet set;
+    for (std::uint32_t i = 0; i < 40 * 2 * 6; ++i) {
+        add_particle(set, 0.5f * test_spacing * (glm::vec3(i % 40, i / 40 % 2, i / 80) + glm::vec3(0.5f, 3.5f, 0.5f)));
+    }
+    Random random(5);
+    for (std::uint32_t i = 0; i < 12; ++i) {
+        add_particle(set, glm::vec3(0.04f + 0.08f * static_cast<float>(i), 0.16f, 0.06f) + 0.02f * random_vector(random),
+                     random_vector(random));
+    }
+    return set;
+}
+
+/// Four particles at the ends of two rows of cells (of the paper's kernels), and above these a crowded row: a tile that
+/// becomes wide halfway through its walk, when its particles have met each other already.
+inline ParticleSet wide_halfway()
+{
+    ParticleSet set;
+    add_particle(set, glm::vec3(0.9f, 0.17f, 0.15f), glm::vec3(0.5f, 0.0f, 0.0f));
+    add_particle(set, glm::vec3(0.1f, 0.23f, 0.15f), glm::vec3(-0.5f, 0.0f, 0.0f));
+    add_particle(set, glm::vec3(0.5f, 0.23f, 0.15f), glm::vec3(0.0f, 0.5f, 0.0f));
+    add_particle(set, glm::vec3(0.91f, 0.23f, 0.15f), glm::vec3(0.0f, 0.0f, 0.5f));
+    for (std::uint32_t i = 0; i < 40 * 2 * 3; ++i) {
+        add_particle(set, 0.5f * test_spacing * (glm::vec3(i % 40, i / 40 % 2, i / 80) + glm::vec3(0.5f, 12.5f, 4.5f)));
+    }
+    return set;
+}
+
 /// A drop that has just hit the floor, with spray above: dense, sparse and lone particles at once.
 inline ParticleSet splash_state(std::uint64_t seed)
 {
