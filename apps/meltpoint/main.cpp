@@ -36,6 +36,9 @@ int run(int argc, char** argv)
     program::add_sample(app, global, exit_code);
     program::add_compare(app, global, exit_code);
     program::add_info(app, global, exit_code);
+    for (CLI::App* subcommand : app.get_subcommands([](const CLI::App*) { return true; })) {
+        subcommand->footer("-q, --quiet, before or after the subcommand: no progress or notes on stderr.");
+    }
 
     app.parse_complete_callback([&] { set_log_quiet(global.quiet); });
     try {

@@ -83,6 +83,7 @@ TEST_F(Cli, HelpOfEverySubcommandTellsUnitsAndDefaults)
         const Result result = run({subcommand, "--help"});
         EXPECT_EQ(result.exit_code, 0);
         EXPECT_EQ(result.err, "");
+        EXPECT_NE(result.out.find("--quiet"), std::string::npos) << subcommand;
         for (const std::string& part : parts) {
             EXPECT_NE(result.out.find(part), std::string::npos) << subcommand << ": " << part << "\n" << result.out;
         }
