@@ -41,7 +41,7 @@ protected:
             (void)import_mesh(path);
         } catch (const Error& error) {
             EXPECT_EQ(error.kind(), ErrorKind::Input);
-            const std::string message = error.what();
+            std::string message = error.what();
             EXPECT_NE(message.find(path.string()), std::string::npos) << "does not name the file: " << message;
             EXPECT_EQ(message.find('\n'), std::string::npos) << message;
             return message;

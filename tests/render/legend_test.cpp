@@ -61,7 +61,7 @@ TEST(LegendTest, ALegendStaysInItsCornerAndTooSmallPicturesStayAsTheyAre)
     int changed = 0;
     for (std::uint32_t y = 0; y < image.height; ++y) {
         for (std::uint32_t x = 0; x < image.width; ++x) {
-            if (image.rgba[4 * (y * image.width + x)] != 255) {
+            if (image.rgba[std::size_t{4} * (y * image.width + x)] != 255) {
                 ++changed;
                 EXPECT_TRUE(x < 200 && y > 280) << x << ", " << y;
             }
