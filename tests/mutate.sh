@@ -330,7 +330,7 @@ mutation "solids: the holes of a mesh do not count" \
     engine/geometry/winding_thresholds.cpp \
     'std::ceil(0.5 + lowest - margin)' \
     'std::ceil(0.5 + highest + margin)' \
-    unit_tests 'MeshSolid.TheMaskAgrees*'
+    unit_tests 'WindingThresholds.*'
 mutation "splats: discs are projected along the view axis instead of intersected" \
     shaders/include/splat.glsl \
     'float t = dot(center - ray.origin, normal) / dot(ray.direction, normal);' \
