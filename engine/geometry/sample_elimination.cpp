@@ -27,7 +27,7 @@ public:
         }
     }
 
-    [[nodiscard]] bool empty() const { return heap_.empty(); }
+    [[nodiscard]] std::size_t size() const { return heap_.size(); }
     [[nodiscard]] bool contains(std::uint32_t item) const { return place_[item] != gone; }
 
     std::uint32_t pop()
@@ -158,22 +158,29 @@ std::vector<std::uint32_t> eliminate_samples(const EliminationInput& input)
     const auto there = [&](std::uint32_t place) {
         return heap.contains(place);
     };
-    const auto counts = [&](std::uint32_t place) {
-        return input.counts.empty() || input.counts[cells.order()[place]] != 0;
-    };
-    std::size_t left = 0;
-    for (std::uint32_t place = 0; place < input.points.size(); ++place) {
-        left += counts(place) ? 1 : 0;
-    }
-    while (left > input.keep && !heap.empty()) {
+    const auto remove_heaviest = [&] {
         const std::uint32_t heaviest = heap.pop();
-        left -= counts(heaviest) ? 1 : 0;
         sight.from(heaviest, there, [&](std::uint32_t other, float weight) { heap.lighten(other, weight); });
+        return heaviest;
+    };
+    std::vector<std::uint8_t> counts(input.points.size(), 1);
+    std::size_t left = counts.size();
+    if (input.counts) {
+        while (heap.size() > std::max(input.look_at, input.keep)) {
+            remove_heaviest();
+        }
+        parallel_for(counts.size(), [&](std::size_t place) {
+            counts[place] = heap.contains(static_cast<std::uint32_t>(place)) && input.counts(cells.order()[place]);
+        });
+        left = static_cast<std::size_t>(std::count(counts.begin(), counts.end(), 1));
+    }
+    while (left > input.keep) {
+        left -= counts[remove_heaviest()];
     }
 
     std::vector<std::uint32_t> kept;
     for (std::uint32_t place = 0; place < input.points.size(); ++place) {
-        if (heap.contains(place) && counts(place)) {
+        if (heap.contains(place) && counts[place] != 0) {
             kept.push_back(cells.order()[place]);
         }
     }

@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <span>
 #include <vector>
 
@@ -9,8 +10,9 @@
 
 namespace meltpoint {
 
-/// How many candidates to give sample elimination. With the paper's five a sample the relative radius ends at 0.69, with
-/// seven at 0.72, with twelve, at four times the time, at 0.75 (measured on a sphere); corners and edges take some off.
+/// How many candidates to give sample elimination. With the paper's five a sample the relative radius ends at 0.69,
+/// with seven at 0.72, with twelve, at four times the time, at 0.75 (measured on a sphere); corners and edges take some
+/// off.
 [[nodiscard]] constexpr std::size_t elimination_candidates(std::size_t samples)
 {
     return samples * (samples <= 10'000 ? 12 : 7);
@@ -21,10 +23,12 @@ struct EliminationInput {
     /// Unit, one a candidate, or empty. Points whose normals are more than 134 degrees apart lie on different sides of
     /// something thin: they do not see each other.
     std::span<const glm::vec3> normals;
-    /// One a candidate, or empty: only those that are not zero count as kept.
-    std::span<const std::uint8_t> counts;
     std::size_t keep = 0; ///< how many to leave
     double spacing = 0.0; ///< 2 r_max, m: no set of so many points could have all of them that far apart
+    /// Where only some candidates, by their number, count as kept and are returned. It is asked once `look_at`
+    /// candidates are left, for these only, from several threads.
+    std::function<bool(std::uint32_t)> counts;
+    std::size_t look_at = 0;
 };
 
 /// Weighted sample elimination (Yuksel 2015, "Sample elimination for generating Poisson disk sample sets"): takes the

@@ -1,10 +1,12 @@
 #include "geometry/volume_sampling.h"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
 #include "core/error.h"
 #include "core/parallel_for.h"
+#include "geometry/blue_noise_filling.h"
 #include "geometry/cell_grid.h"
 #include "geometry/lattice_filling.h"
 #include "geometry/mesh_solid.h"
@@ -20,28 +22,26 @@ constexpr double range_for_count = 0.005;   // so that the count is met within 1
 
 VolumeSamples sample_volume(const Solid& solid, const VolumeRequest& request)
 {
-    if (request.lattice == Lattice::BlueNoise) {
-        throw runtime_error("blue noise is not there yet");
-    }
     const glm::dvec3 size(solid.bounds().size());
-    const PointSpacing* given = std::get_if<PointSpacing>(&request.amount);
-    if (given != nullptr) {
-        check_lattice(size, given->meters, range_for_spacing); // before the volume, which may take time
+    const PointSpacing* asked = std::get_if<PointSpacing>(&request.amount);
+    const double range = asked != nullptr ? range_for_spacing : range_for_count;
+    if (asked != nullptr) {
+        check_lattice(size, asked->meters, range); // before the volume, which may take time
     }
     const double volume = solid.volume();
     if (!(volume > 0.0)) {
         throw input_error("the shape to fill encloses no volume: it is flat, or its triangles face inward");
     }
-    if (given != nullptr) {
-        return fill_with_lattice(solid, request.lattice, given->meters, range_for_spacing);
-    }
-    const std::size_t count = std::get<PointCount>(request.amount).points;
+    const std::size_t count =
+        asked != nullptr ? static_cast<std::size_t>(std::max(std::round(volume / std::pow(asked->meters, 3)), 1.0))
+                         : std::get<PointCount>(request.amount).points;
     if (count == 0) {
         throw input_error("the number of points to fill a shape with is 0, but must be positive");
     }
-    const double spacing = std::cbrt(volume / static_cast<double>(count));
-    check_lattice(size, spacing, range_for_count);
-    return fill_with_lattice(solid, request.lattice, spacing, range_for_count);
+    const double spacing = asked != nullptr ? asked->meters : std::cbrt(volume / static_cast<double>(count));
+    check_lattice(size, spacing, range);
+    return request.lattice == Lattice::BlueNoise ? fill_with_blue_noise(solid, count, request.seed)
+                                                 : fill_with_lattice(solid, request.lattice, spacing, range);
 }
 
 VolumeSamples sample_volume(const TriangleMesh& mesh, double spacing)

@@ -13,6 +13,7 @@
 #include "core/error.h"
 #include "geometry/builtin_meshes.h"
 #include "geometry/mesh_solid.h"
+#include "geometry/relaxation.h"
 #include "geometry/teapot.h"
 #include "geometry/winding_number.h"
 
@@ -165,6 +166,31 @@ TEST(VolumeSampling, ACountIsMetWithinTwoPercent)
                   return sample_volume(cube, {Lattice::Fcc, PointCount{std::size_t{1} << 40}});
               }).find("lattice points"),
               std::string::npos);
+    EXPECT_NE(complaint([&] {
+                  return sample_volume(cube, {Lattice::BlueNoise, PointCount{std::size_t{1} << 27}});
+              }).find("candidates"),
+              std::string::npos);
+}
+
+TEST(VolumeSampling, BlueNoiseHasItsCountAndIsEven)
+{
+    const BoxSolid box({{0.0f, 0.0f, 0.0f}, {1.0f, 2.0f, 1.0f}});
+    const BallSolid ball({3.0f, 0.0f, 0.0f}, 0.1f);
+    const MeshSolid torus(builtin_mesh("torus"));
+    for (const Solid* solid :
+         {static_cast<const Solid*>(&box), static_cast<const Solid*>(&ball), static_cast<const Solid*>(&torus)}) {
+        for (const std::size_t count : {1u, 10u, 1500u}) {
+            const VolumeSamples samples = sample_volume(*solid, {Lattice::BlueNoise, PointCount{count}, 4});
+            ASSERT_EQ(samples.positions.size(), count);
+            EXPECT_NEAR(lattice_error(samples), 0.0, 1e-9);
+            const Evenness evenness = evenness_of(samples.positions, *solid);
+            EXPECT_GE(evenness.relative_radius, 0.7) << count;
+            EXPECT_LE(evenness.density_spread, 0.01) << count;
+        }
+    }
+    const VolumeSamples spaced = sample_volume(box, {Lattice::BlueNoise, PointSpacing{0.1}});
+    EXPECT_EQ(spaced.positions.size(), 2000u);
+    EXPECT_NE(spaced.positions, sample_volume(box, {Lattice::BlueNoise, PointSpacing{0.1}, 2}).positions);
 }
 
 TEST(VolumeSampling, TheOpenTeapotIsFilledToItsVolume)
@@ -196,16 +222,21 @@ TEST(VolumeSampling, AnOverlapCountsOnce)
 TEST(VolumeSampling, IsTheSameOnAnyNumberOfThreads)
 {
     const TriangleMesh mesh = builtin_mesh("torus");
-    const auto run = [&](std::size_t threads) {
-        const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, threads);
-        return sample_volume(mesh, 0.15);
-    };
-    const VolumeSamples one = run(1);
-    const VolumeSamples two = run(2);
-    ASSERT_EQ(one.positions.size(), two.positions.size());
-    EXPECT_EQ(std::memcmp(one.positions.data(), two.positions.data(), one.positions.size() * sizeof(glm::vec3)), 0);
-    EXPECT_EQ(one.volume, two.volume);
-    EXPECT_EQ(one.spacing, two.spacing);
+    for (const Lattice lattice : {Lattice::Cubic, Lattice::Fcc, Lattice::BlueNoise}) {
+        const auto run = [&](std::size_t threads) {
+            const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, threads);
+            return sample_volume(MeshSolid(mesh), {lattice, PointCount{1000}});
+        };
+        const VolumeSamples one = run(1);
+        for (const std::size_t threads : {2u, 7u}) {
+            const VolumeSamples other = run(threads);
+            ASSERT_EQ(one.positions.size(), other.positions.size());
+            EXPECT_EQ(
+                std::memcmp(one.positions.data(), other.positions.data(), one.positions.size() * sizeof(glm::vec3)), 0);
+            EXPECT_EQ(one.volume, other.volume);
+            EXPECT_EQ(one.spacing, other.spacing);
+        }
+    }
 }
 
 TEST(VolumeSampling, WhatCannotBeFilledIsRefused)
