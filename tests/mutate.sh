@@ -352,6 +352,49 @@ mutation "drawing: magenta above the rest density instead of below" \
     'density[particle] > params.rest_density[material]' \
     image_tests 'FrameTest.DensityBelowTheRestDensityIsMagenta'
 
+# --- files ---------------------------------------------------------------------------------------------------------------
+
+mutation "PLY: counts are not held against the size of the file" \
+    engine/io/ply_header.cpp \
+    'least > 0 && element.count > left / least' \
+    'least > 0 && false' \
+    unit_tests 'MeshFile.HugeCountsAreRefusedBeforeAnythingIsAllocated'
+mutation "PLY: big-endian values are read as little-endian" \
+    engine/io/ply_read.cpp \
+    'encoding_ == PlyEncoding::BigEndian' \
+    'false' \
+    unit_tests '*MeshFormat.BringsBackWhatWasWritten/PlyBig'
+mutation "PLY: no triangle of a strip is turned round" \
+    engine/io/ply_read.cpp \
+    '(i - begin) % 2 == 1' \
+    'false' \
+    unit_tests 'PlyFile.TriangleStrips'
+mutation "glTF: buffers may lie anywhere" \
+    engine/io/gltf_buffer.cpp \
+    'folder_end != folder.end()' \
+    'false' \
+    unit_tests 'GltfFile.BuffersBesideTheFileAreReadAndNoOthers'
+mutation "glTF: indices are not held against the vertices" \
+    engine/io/gltf_reduce.cpp \
+    'indices.highest >= positions.count' \
+    'false' \
+    unit_tests '*MeshFormat.UnusableMeshesAreRefused/Glb'
+mutation "glTF: instances are not counted" \
+    engine/io/gltf_reduce.cpp \
+    'total.triangles += size.triangles' \
+    'total.triangles = size.triangles' \
+    unit_tests 'GltfFile.DeepTreesCyclesAndManyInstancesAreRefused'
+mutation "Gmsh: nodes count from zero" \
+    engine/io/point_cloud_export.cpp \
+    'static_cast<int>(i + 1)' \
+    'static_cast<int>(i)' \
+    unit_tests 'PointCloudExport.MshHasNodesPointElementsAndAViewOfTheNormals'
+mutation "points: a stopped export is committed" \
+    engine/io/point_cloud_export.cpp \
+    'if (!format.write(file, rows, cloud)) {' \
+    'if (!format.write(file, rows, cloud) && false) {' \
+    unit_tests 'PointCloudExport.StoppedInTheMiddleThePathIsAsItWas'
+
 # --- the machinery ------------------------------------------------------------------------------------------------------
 
 source_dir=build/mutations/source

@@ -43,6 +43,11 @@ public:
             next_.push_back((i + 1) % count);
             previous_.push_back((i + count - 1) % count);
         }
+        for (std::size_t i = 0; i < count; ++i) {
+            if (!turns_left(i)) {
+                reflex_.push_back(i);
+            }
+        }
     }
 
     [[nodiscard]] std::size_t next(std::size_t i) const { return next_[i]; }
@@ -52,6 +57,7 @@ public:
     {
         next_[previous_[i]] = next_[i];
         previous_[next_[i]] = previous_[i];
+        std::erase(reflex_, i);
     }
 
     /// Whether the triangle at a corner can be cut off: it turns left, and no other corner lies in it.
@@ -60,10 +66,11 @@ public:
         const glm::dvec2& a = points_[previous_[i]];
         const glm::dvec2& b = points_[i];
         const glm::dvec2& c = points_[next_[i]];
-        if (cross(b - a, c - b) <= 0.0) {
+        if (!turns_left(i)) {
             return false;
         }
-        for (std::size_t other = next_[next_[i]]; other != previous_[i]; other = next_[other]) {
+        // If any corner lies in the triangle, then one that turned right does (Eberly 1998).
+        for (const std::size_t other : reflex_) {
             const glm::dvec2& p = points_[other];
             const bool is_corner = p == a || p == b || p == c;
             if (!is_corner && cross(b - a, p - a) >= 0.0 && cross(c - b, p - b) >= 0.0 && cross(a - c, p - c) >= 0.0) {
@@ -74,7 +81,14 @@ public:
     }
 
 private:
+    [[nodiscard]] bool turns_left(std::size_t i) const
+    {
+        const glm::dvec2& b = points_[i];
+        return cross(b - points_[previous_[i]], points_[next_[i]] - b) > 0.0;
+    }
+
     std::vector<glm::dvec2> points_;
+    std::vector<std::size_t> reflex_; ///< corners that do not turn left in the whole polygon
     std::vector<std::size_t> next_;
     std::vector<std::size_t> previous_;
 };

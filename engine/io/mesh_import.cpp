@@ -106,10 +106,11 @@ void append_node(TriangleMesh& whole, const aiScene& scene, const aiNode& node, 
 /// What triangulation relies on.
 void check_faces(const aiScene& scene, const std::string& name)
 {
+    PolygonCheck check_corners(name);
     for (unsigned i = 0; i < scene.mNumMeshes; ++i) {
         const aiMesh& part = *scene.mMeshes[i];
         for (const aiFace& face : std::span(part.mFaces, part.mNumFaces)) {
-            check_corners(face.mNumIndices, name);
+            check_corners(face.mNumIndices);
             for (const unsigned index : std::span(face.mIndices, face.mNumIndices)) {
                 if (index >= part.mNumVertices) {
                     throw input_error("{}: a face names vertex {} of {}", name, index, part.mNumVertices);

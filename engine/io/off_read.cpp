@@ -102,13 +102,14 @@ void read_vertices(TextScanner& text, const OffHeader& header, TriangleMesh& mes
 void read_faces(TextScanner& text, const OffHeader& header, const std::string& name, TriangleMesh& mesh)
 {
     std::vector<std::uint32_t> polygon;
+    PolygonCheck check_corners(name);
     for (std::uint64_t i = 0; i < header.faces; ++i) {
         text.next_line();
         if (!text.next_content()) {
             throw text.error("the file ends after {} of {} faces", i, header.faces);
         }
         const std::uint64_t corners = text.count(text.word_on_line(), "the number of corners");
-        check_corners(corners, name);
+        check_corners(corners);
         polygon.clear();
         for (std::uint64_t k = 0; k < corners; ++k) {
             const std::uint64_t index = text.count(text.word_on_line(), "a corner of a face");

@@ -201,7 +201,6 @@ std::uint32_t checked_index(std::int64_t index, const PlyContent& content, const
 void append_polygon(const std::vector<std::int64_t>& corners, const std::string& name, PlyContent& content,
                     std::vector<std::uint32_t>& polygon)
 {
-    check_corners(corners.size(), name);
     polygon.clear();
     for (const std::int64_t corner : corners) {
         polygon.push_back(checked_index(corner, content, name));
@@ -236,6 +235,7 @@ void read_faces(Body& body, const PlyElement& element, const std::string& name, 
     }
     std::vector<std::int64_t> corners;
     std::vector<std::uint32_t> polygon;
+    PolygonCheck check_corners(name);
     content.triangles.reserve(element.name == "face" ? element.count : 0);
     for (std::uint64_t i = 0; i < element.count; ++i) {
         for (const PlyProperty& property : element.properties) {
@@ -245,6 +245,7 @@ void read_faces(Body& body, const PlyElement& element, const std::string& name, 
             }
             body.list(property, corners);
             if (element.name == "face") {
+                check_corners(corners.size());
                 append_polygon(corners, name, content, polygon);
             } else {
                 append_strips(corners, name, content);

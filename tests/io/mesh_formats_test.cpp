@@ -1,5 +1,6 @@
 // Every mesh format: what is written comes back, and what is broken is refused in one sentence.
 
+#include <cmath>
 #include <functional>
 #include <string>
 
@@ -235,9 +236,8 @@ TEST(MeshFile, PolygonsAreTriangulatedOrRefused)
         "ply\r\nformat ascii 1.0\r\nelement vertex 9\r\nproperty double x\r\nproperty double "
         "y\r\nproperty double z\r\nelement face 2\r\nproperty list uint8 uint vertex_index\r\n"
         "end_header\r\n";
-    for (const TriangleMesh& mesh :
-         {parse(fmt::format("OFF 9 2 0\n{}{}", vertices, faces), "m.off"),
-          parse(fmt::format("{}{}{}", ply_header, vertices, faces), "m.ply")}) {
+    for (const TriangleMesh& mesh : {parse(fmt::format("OFF 9 2 0\n{}{}", vertices, faces), "m.off"),
+                                     parse(fmt::format("{}{}{}", ply_header, vertices, faces), "m.ply")}) {
         EXPECT_EQ(mesh.triangles.size(), 5u);
         EXPECT_NEAR(surface_area(mesh), 4.0, 1e-6);
         for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
@@ -251,6 +251,20 @@ TEST(MeshFile, PolygonsAreTriangulatedOrRefused)
         face += fmt::format(" {}", i);
     }
     EXPECT_NE(refusal(many + face, "m.off").find("corners"), std::string::npos);
+
+    // A disc of a thousand corners may be there once, but not a thousand times.
+    std::string vertices_of_disc;
+    std::string disc = "1000";
+    for (int i = 0; i < 1000; ++i) {
+        vertices_of_disc += fmt::format("{} {} 0\n", std::cos(0.00628 * i), std::sin(0.00628 * i));
+        disc += fmt::format(" {}", i);
+    }
+    EXPECT_EQ(refusal("OFF\n1000 1 0\n" + vertices_of_disc + disc, "m.off"), "");
+    std::string discs = "OFF\n1000 1001 0\n" + vertices_of_disc;
+    for (int i = 0; i < 1001; ++i) {
+        discs += disc + "\n";
+    }
+    EXPECT_NE(refusal(discs, "m.off").find("too many polygons"), std::string::npos);
 }
 
 // --- PLY -----------------------------------------------------------------------------------------
