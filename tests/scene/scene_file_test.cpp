@@ -375,6 +375,8 @@ TEST(SceneFileOnDisk, SaysWhyAFileCannotBeRead)
               (folder / "none.toml").string() + ": cannot read the scene: No such file or directory");
     EXPECT_NE(error(write("big.toml", std::string((16 << 20) + 1, ' '))).find("larger than 16 MiB"), std::string::npos);
     EXPECT_NE(error(write("binary.toml", "\x89PNG\r\n\x1a\n")).find("binary.toml:1:"), std::string::npos);
+    EXPECT_NE(error(write("letter.toml", "name = \"x\"\n\n\u00e9 = 1\n")).find("letter.toml:3"), std::string::npos);
+    EXPECT_NE(error(write("letter.toml", "name = \"x\"\n\nse\u0245ed = 1\n")).find("letter.toml:3"), std::string::npos);
     for (const char* header : {"[,a]", "[[,a]]", "[ \t=]", "[[#\n]]", "[\x01"}) {
         EXPECT_NE(error(write("header.toml", std::string("name = \"x\"\n\n") + header + "\n")).find("header.toml:3"),
                   std::string::npos)
