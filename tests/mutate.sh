@@ -299,6 +299,26 @@ mutation "faults: the largest id is reported" \
     'atomicMax(status.offender' \
     conformance_tests 'Steps.ANotANumberIsReportedWithTheSmallestId'
 
+# --- the yardstick of the benchmark --------------------------------------------------------------------------------------
+
+mutation "yardstick: no images of images" \
+    apps/bench/yardstick_sort.cpp \
+    'const std::size_t end = ghosts_[thread].size();' \
+    'const std::size_t end = begin;' \
+    bench_tests 'Yardstick.DensityIsTheReferences'
+mutation "yardstick: ghosts move along with what they mirror" \
+    apps/bench/yardstick_sort.cpp \
+    'ghost.velocity[axis] = -ghost.velocity[axis];' \
+    '' \
+    bench_tests 'Yardstick.StepsAreTheReferences'
+mutation "yardstick: rows end one cell too early" \
+    apps/bench/yardstick_kernels.cpp \
+    'const std::uint32_t last = grid.cell_start[cell + 3];
+#pragma omp simd reduction(+ : sum)' \
+    'const std::uint32_t last = grid.cell_start[cell + 2];
+#pragma omp simd reduction(+ : sum)' \
+    bench_tests 'Yardstick.DensityIsTheReferences'
+
 # --- sampling and drawing -----------------------------------------------------------------------------------------------
 
 mutation "surface samples: the half beyond the triangle is not folded back" \

@@ -16,6 +16,8 @@ drop` the scene of this folder with that name, from anywhere. Start from a copy 
 - [teapot_drop.toml](teapot_drop.toml): a teapot of fluid falls and splashes. The default.
 - [dam_break.toml](dam_break.toml): a column of fluid collapses.
 - [drop.toml](drop.toml): a ball of fluid falls into a pool.
+- [benchmark_dam.toml](benchmark_dam.toml): a column of 32^3 particles collapses, to compare engines; `_20`, `_25`, `_40` and
+  `_50` for as many particles along an edge.
 
 Every key may be left out unless it is marked required. Quantities are in SI units, y is up, angles are in degrees. Where
 `"auto"` is allowed, the engine finds the value from the rest of the scene. Paths of meshes are relative to the scene's folder.

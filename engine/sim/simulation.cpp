@@ -114,6 +114,34 @@ void Simulation::check_status()
                         shared::offender_id(status.offender), describe_fault(shared::offender_fault(status.offender)));
 }
 
+std::uint64_t Simulation::device_bytes() const
+{
+    std::uint64_t sum = 0;
+    for (const gpu::Buffer* buffer : {&particles_.id,
+                                      &particles_.attributes,
+                                      &particles_.position,
+                                      &particles_.velocity,
+                                      &particles_.acceleration,
+                                      &particles_.density,
+                                      &particles_.pressure,
+                                      &particles_.interaction,
+                                      &grid_.key,
+                                      &grid_.order,
+                                      &grid_.cell_start,
+                                      &grid_.sorted_id,
+                                      &grid_.sorted_attributes,
+                                      &grid_.sorted_position,
+                                      &grid_.sorted_velocity,
+                                      &grid_.scratch.counts,
+                                      &grid_.scratch.unordered,
+                                      &grid_.scratch.slot_ids,
+                                      &grid_.scratch.crowded,
+                                      &grid_.scratch.scan}) {
+        sum += buffer->size();
+    }
+    return sum;
+}
+
 ParticleSet Simulation::download() const
 {
     return meltpoint::download(*context_, particles_);

@@ -44,6 +44,11 @@ public:
     [[nodiscard]] std::uint64_t step() const { return step_; }
     [[nodiscard]] double time() const { return static_cast<double>(step_) * static_cast<double>(params_.dt); }
 
+    /// Particles an invocation.
+    [[nodiscard]] std::uint32_t tile() const { return kernels_.tile; }
+    /// Device memory of the particles, their grid and the sort.
+    [[nodiscard]] std::uint64_t device_bytes() const;
+
     /// The particles on the host, in order of id.
     [[nodiscard]] ParticleSet download() const;
     [[nodiscard]] NeighborStatistics neighbor_statistics();

@@ -28,9 +28,10 @@ STANDS_ON = {
     "engine/render": ["engine/particle_buffers", "engine/primitives"],
     "engine/run": ["engine/scene", "engine/io", "engine/sim", "engine/render"],
     "apps/conformance": ["engine/sim", "engine/reference"],
+    "apps/bench": ["engine/sim", "engine/scene"],
     "apps/meltpoint": ["engine/run"],
     "apps/viewer": ["engine/run"],
-    "tests": ["engine/run", "engine/reference", "apps/conformance"],
+    "tests": ["engine/run", "engine/reference", "apps/conformance", "apps/bench"],
     "shaders/shared": [],
     "shaders/include": ["shaders/shared"],
     "shaders/primitives": ["shaders/include"],
@@ -43,6 +44,7 @@ DISPATCHING = ["engine/primitives", "engine/sim", "engine/render"]
 
 # Single files that may include one folder more.
 EXTRA = {
+    "apps/meltpoint/bench.cpp": ["apps/bench"],
     "apps/meltpoint/compare.cpp": ["apps/conformance", "engine/reference"],
 }
 

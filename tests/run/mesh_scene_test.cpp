@@ -46,11 +46,12 @@ TEST(FindScene, KnowsTheBuiltInScenes)
 
 TEST(FindScene, SuggestsTheNearestName)
 {
-    EXPECT_EQ(refusal("teapot_dorp"), "there is no scene or mesh \"teapot_dorp\": neither a file nor a built-in scene "
-                                      "(dam_break, drop, teapot_drop); did you mean \"teapot_drop\"?");
+    const std::string misspelled = refusal("teapot_dorp");
+    EXPECT_TRUE(misspelled.starts_with("there is no scene or mesh \"teapot_dorp\": neither a file nor a built-in scene ("))
+        << misspelled;
+    EXPECT_TRUE(misspelled.ends_with(", dam_break, drop, teapot_drop); did you mean \"teapot_drop\"?")) << misspelled;
     EXPECT_TRUE(refusal("teapot").ends_with("; did you mean \"builtin:teapot\"?")) << refusal("teapot");
-    EXPECT_EQ(refusal(""), "there is no scene or mesh \"\": neither a file nor a built-in scene (dam_break, drop, "
-                           "teapot_drop)");
+    EXPECT_TRUE(refusal("").ends_with(", dam_break, drop, teapot_drop)")) << refusal("");
 }
 
 TEST(FindScene, ATooLongNameIsBadInput)

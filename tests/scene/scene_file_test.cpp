@@ -608,7 +608,9 @@ TEST(BuiltinScenes, AreTheFilesOfTheFolder)
     EXPECT_EQ(builtin_scene("drop", std::vector<std::string>{"time.frames=3"}).time.frames, 3u);
     EXPECT_EQ(complaint_of([] { builtin_scene("teapot_drip"); }),
               "no built-in scene is called \"teapot_drip\"; did you mean \"teapot_drop\"?");
-    EXPECT_NE(complaint_of([] { builtin_scene("x"); }).find("there are dam_break, drop, teapot_drop"),
+    EXPECT_NE(complaint_of([] { builtin_scene("x"); })
+                  .find("there are benchmark_dam, benchmark_dam_20, benchmark_dam_25, benchmark_dam_40, "
+                        "benchmark_dam_50, dam_break, drop, teapot_drop"),
               std::string::npos);
 }
 

@@ -82,8 +82,8 @@ inline ParticleSet random_state(std::size_t count, const glm::vec3& low, const g
     return set;
 }
 
-/// A row of far apart particles in the row of cells above one that is crowded: consecutive in the sorted order, they have
-/// hundreds of candidates between them.
+/// A row of far apart particles in the row of cells above one that is crowded: consecutive in the sorted order, they
+/// have hundreds of candidates between them.
 inline ParticleSet spray_above_a_floor()
 {
     ParticleSet set;
@@ -92,7 +92,8 @@ inline ParticleSet spray_above_a_floor()
     }
     Random random(5);
     for (std::uint32_t i = 0; i < 12; ++i) {
-        add_particle(set, glm::vec3(0.04f + 0.08f * static_cast<float>(i), 0.16f, 0.06f) + 0.02f * random_vector(random),
+        add_particle(set,
+                     glm::vec3(0.04f + 0.08f * static_cast<float>(i), 0.16f, 0.06f) + 0.02f * random_vector(random),
                      random_vector(random));
     }
     return set;
