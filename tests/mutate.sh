@@ -351,6 +351,21 @@ mutation "solids: the holes of a mesh do not count" \
     'std::ceil(0.5 + lowest - margin)' \
     'std::ceil(0.5 + highest + margin)' \
     unit_tests 'WindingThresholds.*'
+mutation "relaxation: up the gradient of the density" \
+    engine/geometry/relaxation.cpp \
+    'result.way = away - step' \
+    'result.way = away + step' \
+    unit_tests 'Relaxation.EvensOut*'
+mutation "relaxation: what is outside does not count" \
+    engine/geometry/relaxation.cpp \
+    'density += volume * cubed' \
+    'density += (is_outside ? 0.0f : volume) * cubed' \
+    unit_tests 'Relaxation.MeasuresALattice'
+mutation "relaxation: particles may leave" \
+    engine/geometry/relaxation.cpp \
+    '!is_inside()) { // then' \
+    'false) { // then' \
+    unit_tests 'Relaxation.Nobody*'
 mutation "splats: discs are projected along the view axis instead of intersected" \
     shaders/include/splat.glsl \
     'float t = dot(center - ray.origin, normal) / dot(ray.direction, normal);' \

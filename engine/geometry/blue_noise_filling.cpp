@@ -13,6 +13,7 @@
 #include "geometry/cell_grid.h"
 #include "geometry/lattice_filling.h"
 #include "geometry/outside_points.h"
+#include "geometry/point_cells.h"
 #include "geometry/relaxation.h"
 #include "geometry/sample_elimination.h"
 
@@ -78,8 +79,14 @@ VolumeSamples fill_with_blue_noise(const Solid& solid, std::size_t count, std::u
     if (kept.size() < count) {
         throw too_thin(size, samples.spacing);
     }
+    std::vector<glm::vec3> unordered;
+    unordered.reserve(count);
     for (const std::uint32_t i : kept) {
-        samples.positions.push_back(points[i]);
+        unordered.push_back(points[i]);
+    }
+    const PointCells cells(unordered, samples.spacing);
+    for (const std::uint32_t i : cells.order()) { // neighbors in space side by side
+        samples.positions.push_back(unordered[i]);
     }
     relax_particles(samples.positions, solid);
     return samples;

@@ -14,8 +14,8 @@ namespace {
 
 constexpr float support = 2.6f;       // H / d
 constexpr float step = 0.4f;          // c: of x += -c d^2 sum V grad W
-constexpr float core = 0.85f;         // d: neighbors nearer than this
-constexpr float push = 0.25f;         // are pushed away by this part of what is missing
+constexpr float core = 0.9f;          // d: neighbors nearer than this
+constexpr float push = 0.3f;          // are pushed away by this part of what is missing
 constexpr float longest_step = 0.2f;  // d
 constexpr float skin = 0.4f;          // d: neighbors are looked for this much further away than they count
 constexpr float outside_core = 0.76f; // d: the same for the pieces of what is outside

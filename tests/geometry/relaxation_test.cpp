@@ -96,6 +96,17 @@ TEST(Relaxation, EvensOutRandomPointsAndKeepsThemInside)
     }
 }
 
+TEST(Relaxation, NobodyIsPushedOutOfACrowdedCorner)
+{
+    const BoxSolid corner({{0.0f, 0.0f, 0.0f}, {0.25f, 0.25f, 0.25f}});
+    const BoxSolid box({{0.0f, 0.0f, 0.0f}, {1.0f, 1.0f, 1.0f}});
+    std::vector<glm::vec3> points = random_points(corner, 300);
+    relax_particles(points, box);
+    for (const glm::vec3& point : points) {
+        ASSERT_TRUE(box.contains(glm::dvec3(point)));
+    }
+}
+
 TEST(Relaxation, TheDensityIsEvenBySumOverAllPairsAndTheWallsKeepTheirDistance)
 {
     const Aabb block{{0.0f, 0.0f, 0.0f}, {1.0f, 1.0f, 1.0f}};
