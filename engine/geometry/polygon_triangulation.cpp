@@ -1,5 +1,6 @@
 #include "geometry/polygon_triangulation.h"
 
+#include <algorithm>
 #include <cmath>
 
 namespace meltpoint {
@@ -70,14 +71,11 @@ public:
             return false;
         }
         // If any corner lies in the triangle, then one that turned right does (Eberly 1998).
-        for (const std::size_t other : reflex_) {
+        return std::ranges::none_of(reflex_, [&](std::size_t other) {
             const glm::dvec2& p = points_[other];
             const bool is_corner = p == a || p == b || p == c;
-            if (!is_corner && cross(b - a, p - a) >= 0.0 && cross(c - b, p - b) >= 0.0 && cross(a - c, p - c) >= 0.0) {
-                return false;
-            }
-        }
-        return true;
+            return !is_corner && cross(b - a, p - a) >= 0.0 && cross(c - b, p - b) >= 0.0 && cross(a - c, p - c) >= 0.0;
+        });
     }
 
 private:
