@@ -28,15 +28,17 @@ if find "$bundle" -name '*lvp*' -o -name '*nvidia*' -o -name '*radeon*' | grep -
 fi
 
 name=$(basename "$1")
+# No environment but where programs are, and what a sanitizer was told.
+bare=(env -i PATH=/usr/bin:/bin ${ASAN_OPTIONS:+"ASAN_OPTIONS=$ASAN_OPTIONS"})
 expected=$("$1" info --json)
 for alone in "" 1; do
-    found=$(env -i PATH=/usr/bin:/bin MELTPOINT_BUNDLE_ALONE=$alone "$bundle/$name" info --json)
+    found=$("${bare[@]}" MELTPOINT_BUNDLE_ALONE=$alone "$bundle/$name" info --json)
     [ "$found" = "$expected" ] || fail "info from the bundle (alone: '$alone') says: $found"
 done
 # The loader of the bundle, and not the machine's, is the one it opens.
-opened=$(env -i PATH=/usr/bin:/bin LD_DEBUG=libs "$bundle/$name" info 2>&1 | grep -E 'calling init: .*libvulkan' || true)
+opened=$("${bare[@]}" LD_DEBUG=libs "$bundle/$name" info 2>&1 | grep -E 'calling init: .*libvulkan' || true)
 grep -qF "$bundle/lib/libvulkan.so.1" <<<"$opened" || fail "the Vulkan loader was taken from: $opened"
-if env -i PATH=/usr/bin:/bin "$bundle/$name" no_such_subcommand 2>"$scratch/err"; then
+if "${bare[@]}" "$bundle/$name" no_such_subcommand 2>"$scratch/err"; then
     fail "a mistake in the arguments went unnoticed"
 fi
 
