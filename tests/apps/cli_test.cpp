@@ -27,7 +27,6 @@ namespace {
 using test::Arguments;
 using test::Cli;
 using test::expect_one_sentence;
-using test::messages;
 using test::Result;
 namespace fs = std::filesystem;
 

@@ -26,7 +26,7 @@ TEST(WindingThresholds, AreWhatEveryPointOfTheirCellsSays)
     for (cell.z = 0; cell.z < grid.count.z; ++cell.z) {
         for (cell.y = 0; cell.y < grid.count.y; ++cell.y) {
             for (cell.x = 0; cell.x < grid.count.x; ++cell.x) {
-                const int threshold = thresholds[grid.index(cell)];
+                const auto threshold = static_cast<int>(thresholds[grid.index(cell)]);
                 if (threshold == no_threshold) {
                     continue;
                 }
