@@ -21,12 +21,12 @@ TEST(WindingThresholds, AreWhatEveryPointOfTheirCellsSays)
     grid.cell_size = glm::dvec3(0.06);
     const std::vector<std::int8_t> thresholds = winding_thresholds(WindingNumber(mesh), grid);
     std::size_t known = 0;
-    std::set<int> found;
+    std::set<std::int8_t> found;
     glm::uvec3 cell(0);
     for (cell.z = 0; cell.z < grid.count.z; ++cell.z) {
         for (cell.y = 0; cell.y < grid.count.y; ++cell.y) {
             for (cell.x = 0; cell.x < grid.count.x; ++cell.x) {
-                const auto threshold = static_cast<int>(thresholds[grid.index(cell)]);
+                const std::int8_t threshold = thresholds[grid.index(cell)];
                 if (threshold == no_threshold) {
                     continue;
                 }
@@ -35,7 +35,7 @@ TEST(WindingThresholds, AreWhatEveryPointOfTheirCellsSays)
                 Random random(9, grid.index(cell));
                 grid.points[0] = {random.uniform(), random.uniform(), random.uniform()};
                 const double w = winding_number_exact(mesh, grid.point(cell));
-                ASSERT_EQ(threshold, int(std::ceil(0.5 + w))) << w;
+                ASSERT_EQ(threshold, std::ceil(0.5 + w)) << w;
             }
         }
     }
