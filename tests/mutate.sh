@@ -219,8 +219,8 @@ mutation "neighbors: velocities are not moved into the sorted order" \
 
 mutation "density: in terms of the rest density's mass instead of the particle's" \
     shaders/sim/density.comp \
-    'mass = own[k].w' \
-    'mass = own[0].w' \
+    'mass = velocity[i].w' \
+    'mass = velocity[tile.first].w' \
     conformance_tests 'MaterialConformance.TwoRestDensities'
 mutation "state equation: Tait without its exponent in the stiffness" \
     shaders/sim/density.comp \
@@ -239,8 +239,8 @@ mutation "forces: pressure attracts" \
     conformance_tests '*PassConformance.EachForceAlone/Two*'
 mutation "forces: pressure not symmetric" \
     shaders/sim/forces.comp \
-    'pressure_term[k] + pressure_term_j' \
-    '2.0 * pressure_term_j' \
+    'pressure_term[k] * xj.w + pressure_term_j' \
+    '(1.0 + xj.w) * pressure_term_j' \
     conformance_tests 'Steps.MomentumIsConserved'
 mutation "forces: viscosity speeds up" \
     shaders/sim/forces.comp \
@@ -252,6 +252,36 @@ mutation "forces: surface tension points outward" \
     'return -params.surface_tension' \
     'return params.surface_tension' \
     conformance_tests '*PassConformance.EachForceAlone/Random*'
+mutation "colliders: fluid does not weigh them" \
+    shaders/sim/density.comp \
+    'sum[k] += xj.w *' \
+    'sum[k] +=' \
+    conformance_tests '*PassConformance.AllPasses/OnACollider*'
+mutation "colliders: they push with the fluid's weight" \
+    shaders/sim/forces.comp \
+    'pressure_term[k] * xj.w +' \
+    'pressure_term[k] +' \
+    conformance_tests '*PassConformance.AllPasses/OnACollider*'
+mutation "colliders: their friction is the fluid's viscosity" \
+    shaders/sim/density.comp \
+    'params.viscosity_scale * friction * volume' \
+    'params.viscosity_scale * params.viscosity * volume' \
+    conformance_tests '*PassConformance.EachForceAlone/OnACollider*'
+mutation "colliders: fluid counts in the space that they take" \
+    shaders/sim/boundary_weight.comp \
+    'is_boundary(attributes[range.x]) ? 1.0 : 0.0' \
+    '1.0' \
+    conformance_tests '*PassConformance.AllPasses/OnACollider*'
+mutation "colliders: they fall" \
+    shaders/sim/kick_drift.comp \
+    'i >= params.particle_count || is_boundary(attributes[i])' \
+    'i >= params.particle_count' \
+    conformance_tests 'Steps.BoundaryParticlesAreNeverAtFault'
+mutation "colliders: a tile with one of them has no density" \
+    shaders/include/boundary.glsl \
+    'count_boundary(tile) == tile.last - tile.first + 1u' \
+    'count_boundary(tile) > 0u' \
+    conformance_tests '*PassConformance.AllPasses/OnACollider*'
 mutation "forces: gravity left out" \
     shaders/sim/forces.comp \
     'a = params.gravity + force[k]' \

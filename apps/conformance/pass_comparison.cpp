@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "gpu/transfer.h"
+#include "reference/boundary.h"
 #include "reference/cells.h"
 #include "reference/density.h"
 #include "reference/forces.h"
@@ -230,6 +231,22 @@ std::vector<PassError> compare_density(Device& device, const reference::Settings
     return {{"density", density.value(), pass_bound}, {"pressure", pressure.value(), pass_bound, clamp_flips}};
 }
 
+PassError compare_boundary_weight(Device& device, const reference::Settings& settings, reference::State& twin,
+                                  const reference::Neighbors& neighbors)
+{
+    device.run([&] {
+        sim::record_boundary_weight(device.commands, device.kernels, device.params_buffer, device.particles,
+                                    device.grid);
+    });
+    reference::update_boundary_weights(settings, twin, neighbors);
+    const ParticleSet gpu = download_unordered(device.context, device.particles);
+    RelativeError error;
+    for (std::size_t i = 0; i < gpu.size(); ++i) {
+        error.add(static_cast<double>(gpu.weight[i]) - twin.weight[i], twin.weight[i]);
+    }
+    return {"boundary weight", error.value(), pass_bound};
+}
+
 PassError compare_forces(Device& device, const reference::Settings& settings, const reference::Neighbors& neighbors)
 {
     device.run([&] {
@@ -271,6 +288,7 @@ std::vector<PassError> compare_passes(const gpu::Context& context, const Particl
     reference::State twin = reference::from_particle_set(download_unordered(context, device.particles));
     const reference::Neighbors neighbors = reference::find_neighbors(device.params, twin.position);
     errors.push_back(compare_neighbors(device, twin));
+    errors.push_back(compare_boundary_weight(device, twin_settings, twin, neighbors));
     for (PassError& error : compare_density(device, twin_settings, twin, neighbors)) {
         errors.push_back(std::move(error));
     }

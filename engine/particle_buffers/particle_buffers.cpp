@@ -51,8 +51,8 @@ void upload(const gpu::Context& context, const ParticleSet& set, const ParticleB
     }
     gpu::upload<std::uint32_t>(context, particles.id, set.id);
     gpu::upload<std::uint32_t>(context, particles.attributes, set.attributes);
-    gpu::upload<glm::vec4>(context, particles.position, pack(set.position, &set.mass));
-    gpu::upload<glm::vec4>(context, particles.velocity, pack(set.velocity, nullptr));
+    gpu::upload<glm::vec4>(context, particles.position, pack(set.position, &set.weight));
+    gpu::upload<glm::vec4>(context, particles.velocity, pack(set.velocity, &set.mass));
     gpu::upload<glm::vec4>(context, particles.acceleration, pack(set.acceleration, nullptr));
     gpu::upload<float>(context, particles.density, set.density);
     gpu::upload<float>(context, particles.pressure, set.pressure);
@@ -72,7 +72,8 @@ ParticleSet download_unordered(const gpu::Context& context, const ParticleBuffer
     const std::vector<glm::vec4> acceleration = gpu::download<glm::vec4>(context, particles.acceleration, count);
     for (std::size_t i = 0; i < count; ++i) {
         set.position[i] = glm::vec3(position[i]);
-        set.mass[i] = position[i].w;
+        set.weight[i] = position[i].w;
+        set.mass[i] = velocity[i].w;
         set.velocity[i] = glm::vec3(velocity[i]);
         set.acceleration[i] = glm::vec3(acceleration[i]);
     }
@@ -88,6 +89,7 @@ ParticleSet download(const gpu::Context& context, const ParticleBuffers& particl
     permute(set.velocity, id);
     permute(set.acceleration, id);
     permute(set.mass, id);
+    permute(set.weight, id);
     permute(set.density, id);
     permute(set.pressure, id);
     permute(set.id, id);

@@ -19,9 +19,10 @@ struct ParticleSet {
     std::vector<glm::vec3> position;       ///< m
     std::vector<glm::vec3> velocity;       ///< m/s
     std::vector<glm::vec3> acceleration;   ///< m/s^2, of the last force evaluation
-    std::vector<float> mass;               ///< kg
-    std::vector<float> density;            ///< kg/m^3, boundary contributions included
-    std::vector<float> pressure;           ///< Pa
+    std::vector<float> mass;               ///< kg; 0 for boundary particles
+    std::vector<float> weight;   ///< in its neighbors' number density: 1 for fluid, V/d^3 for boundary particles
+    std::vector<float> density;  ///< kg/m^3, boundary contributions included
+    std::vector<float> pressure; ///< Pa
 
     [[nodiscard]] std::size_t size() const { return position.size(); }
 
@@ -38,6 +39,7 @@ struct ParticleSet {
         velocity.resize(count, glm::vec3(0.0f));
         acceleration.resize(count, glm::vec3(0.0f));
         mass.resize(count, 0.0f);
+        weight.resize(count, 1.0f);
         density.resize(count, 0.0f);
         pressure.resize(count, 0.0f);
     }

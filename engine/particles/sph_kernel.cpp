@@ -169,6 +169,7 @@ void set_kernel_scales(shared::SphParams& params, std::uint32_t kernel, double s
     params.color_gradient_scale = static_cast<float>(scale.color_gradient / moments.color_gradient);
     params.color_laplacian_scale = static_cast<float>(scale.color_laplacian / moments.color_laplacian);
 
+    params.spacing = static_cast<float>(spacing);
     const double rate = static_cast<double>(params.speed_of_sound) / spacing; // sound crosses a spacing in 1/rate
     params.contact_distance = static_cast<float>(0.25 * spacing);
     params.contact_stiffness = static_cast<float>(rate * rate);

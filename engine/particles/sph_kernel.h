@@ -59,8 +59,8 @@ inline constexpr double MAX_SUPPORT_RATIO = 8.0; ///< above, a particle has more
 /// particle's signed distance to the wall in meters, positive inside; the kernel is that of the continuum.
 [[nodiscard]] double wall_viscosity_integral(std::uint32_t kernel, double distance, double support_radius);
 
-/// Fills what follows from kernel, spacing (m), support radius and speed of sound: the five kernel scales divided by
-/// their lattice moments, and the contact spring. params.support_radius and params.speed_of_sound
+/// Fills the spacing (m) and what follows from it, kernel, support radius and speed of sound: the five kernel scales
+/// divided by their lattice moments, and the contact spring. params.support_radius and params.speed_of_sound
 /// must be set. Throws as lattice_moments does.
 void set_kernel_scales(shared::SphParams& params, std::uint32_t kernel, double spacing);
 

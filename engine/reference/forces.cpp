@@ -1,5 +1,7 @@
 // Müller, Charypar & Gross, "Particle-Based Fluid Simulation for Interactive Applications", SCA 2003.
-// Monaghan, "Smoothed Particle Hydrodynamics", Rep. Prog. Phys. 68, 2005 (the pressure sum that conserves momentum).
+// Akinci, Ihmsen, Akinci, Solenthaler & Teschner, "Versatile Rigid-Fluid Coupling for Incompressible SPH", SIGGRAPH
+// 2012 (boundary particles). Monaghan, "Smoothed Particle Hydrodynamics", Rep. Prog. Phys. 68, 2005 (the pressure sum
+// that conserves momentum).
 #include "reference/forces.h"
 
 #include <algorithm>
@@ -13,9 +15,18 @@
 namespace meltpoint::reference {
 namespace {
 
-double volume(const State& state, std::size_t i)
+double volume(const Settings& settings, const State& state, std::size_t i)
 {
-    return state.mass[i] / state.density[i];
+    return is_boundary(state, i) ? state.weight[i] * std::pow(static_cast<double>(settings.params.spacing), 3)
+                                 : state.mass[i] / state.density[i];
+}
+
+// Of fluid against i, Pa s.
+double viscosity_against(const Settings& settings, const State& state, std::size_t i)
+{
+    return static_cast<double>(is_boundary(state, i)
+                                   ? settings.params.friction[shared::particle_material(state.attributes[i])]
+                                   : settings.params.viscosity);
 }
 
 // A pair as particle i sees it.
@@ -47,14 +58,15 @@ Pair make_pair(const Settings& settings, const State& state, std::size_t i, cons
 VectorSum pressure_acceleration(const Settings& settings, const State& state, const Neighbors& neighbors, std::size_t i)
 {
     const double scale = static_cast<double>(settings.params.gradient_scale);
-    const auto weight = [&](std::size_t k) {
-        return state.pressure[k] * volume(state, k) * volume(state, k);
+    const auto pressure_term = [&](std::size_t k) {
+        return is_boundary(state, k) ? 0.0 : state.pressure[k] * std::pow(volume(settings, state, k), 2);
     };
     VectorSum sum;
     for (const Neighbor& neighbor : neighbors.of(i)) {
         const Pair pair = make_pair(settings, state, i, neighbor);
         const glm::dvec3 kernel_gradient = -scale * gradient_shape(settings.kernel, pair.q) * pair.direction;
-        sum.add(-(weight(i) + weight(pair.j)) / state.mass[i] * kernel_gradient);
+        const double factor = pressure_term(i) * state.weight[pair.j] + pressure_term(pair.j) * state.weight[i];
+        sum.add(-factor / state.mass[i] * kernel_gradient);
     }
     return sum;
 }
@@ -63,12 +75,13 @@ VectorSum viscosity_acceleration(const Settings& settings, const State& state, c
                                  std::size_t i)
 {
     const double scale = static_cast<double>(settings.params.viscosity_scale);
-    const double factor = static_cast<double>(settings.params.viscosity) * volume(state, i) / state.mass[i];
+    const double factor = volume(settings, state, i) / state.mass[i];
     VectorSum sum;
     for (const Neighbor& neighbor : neighbors.of(i)) {
         const Pair pair = make_pair(settings, state, i, neighbor);
         const double laplacian = scale * viscosity_shape(settings.kernel, pair.q);
-        sum.add(factor * volume(state, pair.j) * laplacian * (pair.velocity - state.velocity[i]));
+        const double viscosity = viscosity_against(settings, state, pair.j);
+        sum.add(factor * viscosity * volume(settings, state, pair.j) * laplacian * (pair.velocity - state.velocity[i]));
     }
     return sum;
 }
@@ -82,12 +95,13 @@ ColorField color_field(const Settings& settings, const State& state, const Neigh
         color.laplacian += term;
         color.laplacian_magnitude += std::abs(term);
     };
-    add_laplacian(-volume(state, i) * laplacian_scale * color_laplacian_shape(settings.kernel, 0.0));
+    add_laplacian(-volume(settings, state, i) * laplacian_scale * color_laplacian_shape(settings.kernel, 0.0));
     for (const Neighbor& neighbor : neighbors.of(i)) {
         const Pair pair = make_pair(settings, state, i, neighbor);
-        color.gradient.add(-volume(state, pair.j) * gradient_scale * color_gradient_shape(settings.kernel, pair.q) *
-                           pair.direction);
-        add_laplacian(-volume(state, pair.j) * laplacian_scale * color_laplacian_shape(settings.kernel, pair.q));
+        color.gradient.add(-volume(settings, state, pair.j) * gradient_scale *
+                           color_gradient_shape(settings.kernel, pair.q) * pair.direction);
+        add_laplacian(-volume(settings, state, pair.j) * laplacian_scale *
+                      color_laplacian_shape(settings.kernel, pair.q));
     }
     return color;
 }
@@ -145,6 +159,9 @@ Accelerations accelerations(const Settings& settings, const State& state, const 
     }
     std::vector<std::uint32_t> coincident(count, 0u);
     parallel_for(count, [&](std::size_t i) {
+        if (is_boundary(state, i)) {
+            return;
+        }
         a.pressure[i] = pressure_acceleration(settings, state, neighbors, i);
         a.viscosity[i] = viscosity_acceleration(settings, state, neighbors, i);
         a.tension[i] = tension_acceleration(settings, state, neighbors, i);

@@ -31,13 +31,16 @@ struct VectorSum {
 
 /// Twins of sim/forces.comp, one function a term: acceleration of particle i in m/s^2. They read density, pressure and
 /// velocity from the state; velocity is that of the half step. Sums over j include the images behind walls. Pairs
-/// nearer than COINCIDENT_RATIO support radii have no gradient.
+/// nearer than COINCIDENT_RATIO support radii have no gradient. Particle i is fluid; the volume of a boundary particle
+/// j is s_j d^3.
 
-/// -(1/m_i) sum_j (p_i V_i^2 + p_j V_j^2) grad W_ij with V = m/rho.
+/// -(1/m_i) sum_j (p_i V_i^2 s_j + p_j V_j^2 s_i) grad W_ij with V = m/rho and the weights s; boundary particles have
+/// no pressure.
 [[nodiscard]] VectorSum pressure_acceleration(const Settings& settings, const State& state, const Neighbors& neighbors,
                                               std::size_t i);
 
-/// (V_i/m_i) mu sum_j V_j (v_j - v_i) L_ij (Müller et al. 2003, equation 14, made to conserve momentum).
+/// (V_i/m_i) sum_j mu_j V_j (v_j - v_i) L_ij (Müller et al. 2003, equation 14, made to conserve momentum); mu_j is the
+/// fluid's viscosity, or the friction of a boundary particle.
 [[nodiscard]] VectorSum viscosity_acceleration(const Settings& settings, const State& state, const Neighbors& neighbors,
                                                std::size_t i);
 
@@ -62,7 +65,7 @@ struct ColorField {
 /// The damped spring that holds a particle nearer to a wall than params.contact_distance. It never pulls.
 [[nodiscard]] VectorSum contact_acceleration(const Settings& settings, const State& state, std::size_t i);
 
-/// Every term of every particle.
+/// Every term of every particle; all are zero for boundary particles.
 struct Accelerations {
     std::vector<VectorSum> pressure;
     std::vector<VectorSum> viscosity;

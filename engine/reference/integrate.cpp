@@ -39,8 +39,11 @@ void kick(State& state, double t)
 void drift(const Settings& settings, State& state)
 {
     const double dt = static_cast<double>(settings.params.dt);
-    std::vector<std::uint32_t> fault(state.size());
+    std::vector<std::uint32_t> fault(state.size(), shared::FAULT_NONE);
     parallel_for(state.size(), [&](std::size_t i) {
+        if (is_boundary(state, i)) {
+            return;
+        }
         state.position[i] += state.velocity[i] * dt;
         if (is_outside(settings.params, state.position[i])) {
             state.attributes[i] |= shared::FLAG_LEFT_DOMAIN;

@@ -9,7 +9,8 @@ void kick(State& state, double t);
 
 /// Twin of sim/drift.comp: x += v dt, then looks for faults: a position or velocity that is not finite, a particle
 /// outside the domain (which sets FLAG_LEFT_DOMAIN too), a speed above params.speed_limit; of several, the one named
-/// first here. The state keeps the first step that had one, and in it the particle of smallest id.
+/// first here. Boundary particles stay where they are. The state keeps the first step that had one, and in it the
+/// particle of smallest id.
 void drift(const Settings& settings, State& state);
 
 } // namespace meltpoint::reference

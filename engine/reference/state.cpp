@@ -11,6 +11,7 @@ State from_particle_set(const ParticleSet& particles)
     state.velocity.assign(particles.velocity.begin(), particles.velocity.end());
     state.acceleration.assign(particles.acceleration.begin(), particles.acceleration.end());
     state.mass.assign(particles.mass.begin(), particles.mass.end());
+    state.weight.assign(particles.weight.begin(), particles.weight.end());
     state.density.assign(particles.density.begin(), particles.density.end());
     state.pressure.assign(particles.pressure.begin(), particles.pressure.end());
     return state;
@@ -27,6 +28,7 @@ ParticleSet to_particle_set(const State& state)
         particles.velocity[i] = glm::vec3(state.velocity[i]);
         particles.acceleration[i] = glm::vec3(state.acceleration[i]);
         particles.mass[i] = static_cast<float>(state.mass[i]);
+        particles.weight[i] = static_cast<float>(state.weight[i]);
         particles.density[i] = static_cast<float>(state.density[i]);
         particles.pressure[i] = static_cast<float>(state.pressure[i]);
     }

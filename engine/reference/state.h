@@ -34,7 +34,8 @@ struct State {
     std::vector<glm::dvec3> position;      ///< m
     std::vector<glm::dvec3> velocity;      ///< m/s
     std::vector<glm::dvec3> acceleration;  ///< m/s^2
-    std::vector<double> mass;              ///< kg
+    std::vector<double> mass;              ///< kg; 0 for boundary particles
+    std::vector<double> weight;            ///< in its neighbors' number density
     std::vector<double> density;           ///< kg/m^3
     std::vector<double> pressure;          ///< Pa
 
@@ -49,6 +50,11 @@ struct State {
 
 /// Every attribute rounded to float.
 [[nodiscard]] ParticleSet to_particle_set(const State& state);
+
+[[nodiscard]] inline bool is_boundary(const State& state, std::size_t i)
+{
+    return shared::is_boundary(state.attributes[i]);
+}
 
 /// Rest density of particle i's material, kg/m^3.
 [[nodiscard]] inline double rest_density(const Settings& settings, const State& state, std::size_t i)

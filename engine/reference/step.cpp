@@ -1,6 +1,7 @@
 #include "reference/step.h"
 
 #include "core/parallel_for.h"
+#include "reference/boundary.h"
 #include "reference/cells.h"
 #include "reference/density.h"
 #include "reference/forces.h"
@@ -11,6 +12,7 @@ namespace meltpoint::reference {
 void evaluate(const Settings& settings, State& state)
 {
     const Neighbors neighbors = find_neighbors(settings.params, state.position);
+    update_boundary_weights(settings, state, neighbors);
     update_density(settings, state, neighbors);
     const Accelerations a = accelerations(settings, state, neighbors);
     parallel_for(state.size(), [&](std::size_t i) { state.acceleration[i] = a.total[i].value; });

@@ -15,7 +15,7 @@ namespace meltpoint::render {
 
 /// Particles in device buffers, read only. Fluid, solid and dust alike are drawn as spheres; dead ones are not drawn.
 struct ParticleView {
-    const gpu::Buffer& position;   ///< vec4: xyz in m, w the mass
+    const gpu::Buffer& position;   ///< vec4: xyz in m
     const gpu::Buffer& velocity;   ///< vec4: xyz in m/s
     const gpu::Buffer& density;    ///< float, kg/m^3
     const gpu::Buffer& pressure;   ///< float, Pa

@@ -4,6 +4,7 @@
 #include <cstdint>
 
 #include "core/error.h"
+#include "spirv/sim/boundary_weight.comp.h"
 #include "spirv/sim/cell_key.comp.h"
 #include "spirv/sim/count_neighbors.comp.h"
 #include "spirv/sim/density.comp.h"
@@ -43,6 +44,7 @@ FluidKernels::FluidKernels(const gpu::Context& context, const FluidOptions& opti
     : tile(checked_tile(context.info(), options.tile)), kick_drift(context, "kick_drift", sim_kick_drift_comp),
       kick(context, "kick", sim_kick_comp), cell_key(context, "cell_key", sim_cell_key_comp),
       reorder(context, "reorder", sim_reorder_comp),
+      boundary_weight(context, "boundary_weight", sim_boundary_weight_comp, constants(tile, options)),
       density(context, "density", sim_density_comp, constants(tile, options)),
       forces(context, "forces", sim_forces_comp, constants(tile, options)),
       count_neighbors(context, "count_neighbors", sim_count_neighbors_comp, constants(tile, options))

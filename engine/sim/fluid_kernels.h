@@ -27,6 +27,7 @@ struct FluidKernels {
     gpu::Kernel kick;
     gpu::Kernel cell_key;
     gpu::Kernel reorder;
+    gpu::Kernel boundary_weight;
     gpu::Kernel density;
     gpu::Kernel forces;
     gpu::Kernel count_neighbors;

@@ -79,7 +79,10 @@ Simulation::Simulation(const gpu::Context& context, const ParticleSet& particles
     gpu::upload<shared::SphParams>(context, params_buffer_, {&params_, 1});
     commands_->begin();
     commands_->fill(status_, shared::NO_STEP);
-    record_evaluation(*commands_, kernels_, params_buffer_, particles_, grid_);
+    record_sort(*commands_, kernels_, params_buffer_, particles_, grid_);
+    record_boundary_weight(*commands_, kernels_, params_buffer_, particles_, grid_);
+    record_density(*commands_, kernels_, params_buffer_, particles_, grid_);
+    record_forces(*commands_, kernels_, params_buffer_, particles_, grid_);
     commands_->submit();
     commands_->wait();
 }
@@ -158,11 +161,17 @@ NeighborStatistics Simulation::neighbor_statistics()
 
     NeighborStatistics statistics;
     std::uint64_t sum = 0;
-    for (const shared::NeighborCount& found : gpu::download<shared::NeighborCount>(*context_, counts, count)) {
-        sum += found.neighbors;
-        statistics.coincident += found.coincident;
+    std::uint64_t movers = 0;
+    const auto attributes = gpu::download<std::uint32_t>(*context_, particles_.attributes, count);
+    const auto found = gpu::download<shared::NeighborCount>(*context_, counts, count);
+    for (std::size_t i = 0; i < count; ++i) {
+        if (!shared::is_boundary(attributes[i])) {
+            sum += found[i].neighbors;
+            statistics.coincident += found[i].coincident;
+            ++movers;
+        }
     }
-    statistics.mean = static_cast<double>(sum) / count;
+    statistics.mean = movers > 0 ? static_cast<double>(sum) / static_cast<double>(movers) : 0.0;
     return statistics;
 }
 

@@ -21,7 +21,7 @@ struct SimulationSettings {
 /// The params with particle count and grid size filled in.
 [[nodiscard]] shared::SphParams complete_params(shared::SphParams params, std::size_t particle_count);
 
-/// Neighbor statistics of the present state.
+/// Neighbor statistics of the present state, of all particles but boundary particles.
 struct NeighborStatistics {
     double mean = 0.0;            ///< neighbors per particle within the support radius, itself not counted
     std::uint64_t coincident = 0; ///< ordered pairs closer than COINCIDENT_RATIO support radii: they have no gradient

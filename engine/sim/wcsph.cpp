@@ -1,5 +1,7 @@
 #include "sim/wcsph.h"
 
+#include <utility>
+
 namespace meltpoint::sim {
 
 using gpu::read;
@@ -15,14 +17,24 @@ void record_kick_drift(gpu::Commands& commands, const FluidKernels& kernels, con
                        read_write(particles.position), read_write(particles.velocity), read_write(status)});
 }
 
+void record_boundary_weight(gpu::Commands& commands, const FluidKernels& kernels, const gpu::Buffer& params,
+                            ParticleBuffers& particles, NeighborGrid& grid)
+{
+    const gpu::Scope scope(commands, "boundary weight");
+    commands.dispatch(kernels.boundary_weight, kernels.tiles(particles.count), gpu::NoPush{},
+                      {read(params), read(grid.cell_start), read(particles.position), read(particles.position),
+                       read(particles.attributes), write(grid.sorted_position)});
+    std::swap(particles.position, grid.sorted_position);
+}
+
 void record_density(gpu::Commands& commands, const FluidKernels& kernels, const gpu::Buffer& params,
                     const ParticleBuffers& particles, const NeighborGrid& grid)
 {
     const gpu::Scope scope(commands, "density");
     commands.dispatch(kernels.density, kernels.tiles(particles.count), gpu::NoPush{},
                       {read(params), read(grid.cell_start), read(particles.position), read(particles.position),
-                       read(particles.attributes), write(particles.density), write(particles.pressure),
-                       write(particles.interaction)});
+                       read(particles.attributes), read(particles.velocity), write(particles.density),
+                       write(particles.pressure), write(particles.interaction)});
 }
 
 void record_forces(gpu::Commands& commands, const FluidKernels& kernels, const gpu::Buffer& params,
@@ -32,7 +44,7 @@ void record_forces(gpu::Commands& commands, const FluidKernels& kernels, const g
     commands.dispatch(kernels.forces, kernels.tiles(particles.count), gpu::NoPush{},
                       {read(params), read(grid.cell_start), read(particles.position), read(particles.position),
                        read(particles.velocity), read(particles.velocity), read(particles.interaction),
-                       read(particles.interaction), write(particles.acceleration)});
+                       read(particles.interaction), read(particles.attributes), write(particles.acceleration)});
 }
 
 void record_kick(gpu::Commands& commands, const FluidKernels& kernels, const gpu::Buffer& params,

@@ -16,6 +16,11 @@ namespace meltpoint::sim {
 void record_kick_drift(gpu::Commands& commands, const FluidKernels& kernels, const gpu::Buffer& params,
                        const ParticleBuffers& particles, const gpu::Buffer& status, std::uint32_t step);
 
+/// Weight of sorted boundary particles. They do not move, so once is enough. Swaps the particles' positions with the
+/// grid's spare buffer.
+void record_boundary_weight(gpu::Commands& commands, const FluidKernels& kernels, const gpu::Buffer& params,
+                            ParticleBuffers& particles, NeighborGrid& grid);
+
 /// Density and pressure of sorted particles.
 void record_density(gpu::Commands& commands, const FluidKernels& kernels, const gpu::Buffer& params,
                     const ParticleBuffers& particles, const NeighborGrid& grid);

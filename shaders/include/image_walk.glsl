@@ -13,7 +13,7 @@ struct Tile {
     uint images; // that at least one of them has, bit 0 themselves: a bit for each number of an image
 };
 
-// `own`: the positions and masses of its particles.
+// `own`: the positions and weights of its particles.
 Tile load_tile(uint invocation, out vec4 own[TILE])
 {
     Tile tile;

@@ -35,11 +35,16 @@ struct Surface {
 
 // --- particles and discs -------------------------------------------------------------------------------------------------
 
+const vec3 LUMINANCE = vec3(0.2126, 0.7152, 0.0722); // of linear RGB (ITU-R BT.709)
+
 float in_range(float value) { return (value - params.color_range.x) / (params.color_range.y - params.color_range.x); }
 
 vec3 particle_color(uint particle)
 {
     uint material = min(particle_material(attributes[particle]), MAX_MATERIALS - 1u);
+    if (params.color_mode != COLOR_MATERIAL && is_boundary(attributes[particle])) { // it has none of these quantities
+        return vec3(dot(params.material_color[material], LUMINANCE));
+    }
     switch (params.color_mode) {
     case COLOR_DENSITY:
         return density[particle] < params.rest_density[material] ? below_rest_color()

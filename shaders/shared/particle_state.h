@@ -17,6 +17,8 @@ SHARED_CONSTANT uint FLAG_LEFT_DOMAIN = 0x10000u; // was outside the domain at l
 
 SHARED_FUNCTION uint particle_state(uint attributes) { return attributes & 0xffu; }
 SHARED_FUNCTION uint particle_material(uint attributes) { return (attributes >> MATERIAL_SHIFT) & 0xffu; }
+// A boundary particle: fluid meets it, but it does not move and has no mass.
+SHARED_FUNCTION bool is_boundary(uint attributes) { return particle_state(attributes) == STATE_COLLIDER; }
 SHARED_FUNCTION uint pack_attributes(uint state, uint material) { return state | (material << MATERIAL_SHIFT); }
 
 // Why the simulation stopped.

@@ -4,6 +4,11 @@
 // Number density form (Solenthaler & Pajarola 2008): rho_i = m_i sum_j W_ij, so that fluids of different rest density may
 // touch. With equal masses it is the usual rho_i = sum_j m_j W_ij. The sums include i itself.
 //
+// Colliders are boundary particles (Akinci et al. 2012): each counts in the sum with its weight s_b = V_b / d^3, where
+// V_b = 1 / sum_k W_bk over boundary particles is its share of the space that their layer takes; a fluid particle's weight
+// is 1. The energy sum_i m_i e(rho_i) is that of the fluid alone, so the pressure force, its exact derivative, is
+// -(p_i V_i^2 s_j + p_j V_j^2 s_i) grad W_ij with p_b = 0.
+//
 // Lattice moments: sums over a lattice of the scene's spacing miss the continuum integrals by some percent, so every kernel
 // scale below is already divided by its moment on that lattice (README, "Moments").
 //
@@ -32,7 +37,8 @@ SHARED_CONSTANT float COINCIDENT_RATIO = 1e-6f;
 SHARED_CONSTANT uint CELLS_PER_SUPPORT_X = 2u;
 
 // What the forces need of a particle's density and pressure is computed once, with them: `interaction`, a vec4 a particle of
-// x = p V^2 gradient_scale, y = V = m / rho (m^3); z and w are free.
+// x = p V^2 gradient_scale, y = V = m / rho (m^3), z = mu V viscosity_scale; w is free. Of a boundary particle x = 0,
+// y = V_b, and mu is the friction.
 
 struct SphParams {
     vec3 domain_min;      // m
@@ -68,8 +74,10 @@ struct SphParams {
     float contact_damping;   // 1/s
 
     float speed_limit; // m/s: faster particles are FAULT_TOO_FAST
+    float spacing;     // d, m, of particles at rest
 
-    float rest_density[MAX_MATERIALS]; // kg/m^3
+    float rest_density[MAX_MATERIALS]; // kg/m^3, of fluids
+    float friction[MAX_MATERIALS];     // dynamic viscosity of fluid against colliders, Pa s; 0 is free slip
 };
 
 SHARED_END

@@ -1,8 +1,9 @@
 #version 460
 #extension GL_EXT_control_flow_attributes : require
 #extension GL_GOOGLE_include_directive : require
-// Density and pressure: rho_i = m_i sum_j W_ij over the particles and their images in the walls (Solenthaler & Pajarola
-// 2008), then the state equation; and what the forces need of both. Twin: engine/reference/density.cpp.
+// Density and pressure: rho_i = m_i sum_j s_j W_ij over the particles and their images in the walls, s_j their weights
+// (Solenthaler & Pajarola 2008; Akinci et al. 2012), then the state equation; and what the forces need of both. Boundary
+// particles have neither. Twin: engine/reference/density.cpp.
 #define CELL_START_BINDING 1
 #include "include/candidate.glsl"
 #include "include/invocation.glsl"
@@ -14,10 +15,12 @@ layout(set = 0, binding = 0, scalar) readonly buffer Params { SphParams params; 
 layout(set = 0, binding = 2, scalar) readonly buffer Position { vec4 position[]; };
 layout(set = 0, binding = 3) uniform textureBuffer position_texels;
 layout(set = 0, binding = 4, scalar) readonly buffer Attributes { uint attributes[]; };
-layout(set = 0, binding = 5, scalar) writeonly buffer Density { float density[]; };
-layout(set = 0, binding = 6, scalar) writeonly buffer Pressure { float pressure[]; };
-layout(set = 0, binding = 7, scalar) writeonly buffer Interaction { vec4 interaction[]; }; // of shared/sph_params.h
+layout(set = 0, binding = 5, scalar) readonly buffer Velocity { vec4 velocity[]; }; // w: mass
+layout(set = 0, binding = 6, scalar) writeonly buffer Density { float density[]; };
+layout(set = 0, binding = 7, scalar) writeonly buffer Pressure { float pressure[]; };
+layout(set = 0, binding = 8, scalar) writeonly buffer Interaction { vec4 interaction[]; }; // of shared/sph_params.h
 
+#include "include/boundary.glsl"
 #include "include/image_walk.glsl"
 
 float state_equation(float rho, float rho0)
@@ -38,7 +41,7 @@ void main()
         return;
     }
     vec4 own[TILE];
-    Tile tile = load_tile(invocation_index(), own);
+    Tile tile = without_boundary(load_tile(invocation_index(), own));
 
     float h = params.support_radius;
     KernelSize size = kernel_size(h);
@@ -53,10 +56,10 @@ void main()
         vec3 present[TILE];
         Walk walk = begin_walk(x, present);
         FOR_EACH_CANDIDATE(range, walk, x, present) {
-            vec3 xj = load_candidate(position, range.x).xyz;
+            vec4 xj = load_candidate(position, range.x);
             [[unroll]] for (uint k = 0u; k < TILE; ++k) {
-                vec3 offset = present[k] - xj;
-                sum[k] += density_shape(dot(offset, offset), size);
+                vec3 offset = present[k] - xj.xyz;
+                sum[k] += xj.w * density_shape(dot(offset, offset), size);
             }
         }
     }
@@ -66,13 +69,21 @@ void main()
         if (i > tile.last) {
             break;
         }
-        float mass = own[k].w;
+        if (is_boundary(attributes[i])) {
+            float volume = own[k].w * params.spacing * params.spacing * params.spacing;
+            float friction = params.friction[particle_material(attributes[i])];
+            density[i] = 0.0;
+            pressure[i] = 0.0;
+            interaction[i] = vec4(0.0, volume, params.viscosity_scale * friction * volume, 0.0);
+            continue;
+        }
+        float mass = velocity[i].w;
         float rho0 = params.rest_density[particle_material(attributes[i])];
         float rho = mass * params.density_scale * sum[k];
         float p = state_equation(rho, rho0);
         float volume = mass / rho;
         density[i] = rho;
         pressure[i] = p;
-        interaction[i] = vec4(params.gradient_scale * p * volume * volume, volume, 0.0, 0.0);
+        interaction[i] = vec4(params.gradient_scale * p * volume * volume, volume, params.viscosity_scale * params.viscosity * volume, 0.0);
     }
 }

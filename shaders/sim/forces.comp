@@ -2,13 +2,15 @@
 #extension GL_EXT_control_flow_attributes : require
 #extension GL_GOOGLE_include_directive : require
 // Accelerations: pressure, viscosity and the paper's surface tension, of the particles and their images in the walls; gravity;
-// wall friction and contact. Pair forces are symmetric, so momentum is conserved: F_ij = -(p_i V_i^2 + p_j V_j^2) grad W + mu V_i V_j (v_j - v_i) lap W, with V = m / rho
-// (Mueller et al. 2003 as corrected; Solenthaler & Pajarola 2008). Twin: engine/reference/forces.cpp.
+// wall friction and contact. Pair forces are symmetric, so momentum is conserved: F_ij = -(p_i V_i^2 s_j + p_j V_j^2 s_i)
+// grad W + mu V_i V_j (v_j - v_i) lap W, with V = m / rho and the weights s (Mueller et al. 2003 as corrected; Solenthaler &
+// Pajarola 2008; Akinci et al. 2012). Boundary particles do not move: what they feel is left out. Twin: engine/reference/forces.cpp.
 #define CELL_START_BINDING 1
 #include "include/candidate.glsl"
 #include "include/invocation.glsl"
 #include "include/neighbor_walk.glsl"
 #include "include/sph_kernel.glsl"
+#include "shared/particle_state.h"
 
 layout(constant_id = 2) const bool TENSION = false;
 
@@ -19,8 +21,10 @@ layout(set = 0, binding = 4, scalar) readonly buffer Velocity { vec4 velocity[];
 layout(set = 0, binding = 5) uniform textureBuffer velocity_texels;
 layout(set = 0, binding = 6, scalar) readonly buffer Interaction { vec4 interaction[]; }; // of shared/sph_params.h
 layout(set = 0, binding = 7) uniform textureBuffer interaction_texels;
-layout(set = 0, binding = 8, scalar) writeonly buffer Acceleration { vec4 acceleration[]; };
+layout(set = 0, binding = 8, scalar) readonly buffer Attributes { uint attributes[]; };
+layout(set = 0, binding = 9, scalar) writeonly buffer Acceleration { vec4 acceleration[]; };
 
+#include "include/boundary.glsl"
 #include "include/image_walk.glsl"
 
 // Friction against walls at rest, and the contact spring.
@@ -50,24 +54,25 @@ void main()
         return;
     }
     vec4 own[TILE];
-    Tile tile = load_tile(invocation_index(), own);
+    Tile tile = without_boundary(load_tile(invocation_index(), own));
 
     float h = params.support_radius;
     KernelSize size = kernel_size(h);
     vec3 v[TILE]; // as the present image has it
+    float mass[TILE];
     float pressure_term[TILE]; // p V^2 gradient_scale
     float volume[TILE];        // V
-    float viscous_term[TILE];  // mu V viscosity_scale
     vec3 force[TILE];
     vec3 color_gradient[TILE];
     float color_laplacian[TILE];
     [[unroll]] for (uint k = 0u; k < TILE; ++k) {
         uint i = min(tile.first + k, tile.last);
-        v[k] = load_candidate(velocity, i).xyz;
+        vec4 its_velocity = load_candidate(velocity, i);
+        v[k] = its_velocity.xyz;
+        mass[k] = its_velocity.w;
         vec4 its_interaction = load_candidate(interaction, i);
         pressure_term[k] = its_interaction.x;
         volume[k] = its_interaction.y;
-        viscous_term[k] = params.viscosity_scale * params.viscosity * volume[k];
         force[k] = vec3(0.0);
         color_gradient[k] = vec3(0.0);
         color_laplacian[k] = 0.0;
@@ -91,17 +96,19 @@ void main()
         Walk walk = begin_walk(x, present);
         FOR_EACH_CANDIDATE(range, walk, x, present) {
             uint j = range.x;
-            vec3 xj = load_candidate(position, j).xyz;
+            vec4 xj = load_candidate(position, j);
             vec3 vj = load_candidate(velocity, j).xyz;
-            vec2 interaction_j = load_candidate(interaction, j).xy;
+            vec3 interaction_j = load_candidate(interaction, j).xyz;
             float pressure_term_j = interaction_j.x;
             float volume_j = interaction_j.y;
+            float viscous_term_j = interaction_j.z;
             [[unroll]] for (uint k = 0u; k < TILE; ++k) {
-                vec3 offset = present[k] - xj;
+                vec3 offset = present[k] - xj.xyz;
                 float r2 = dot(offset, offset);
                 vec2 shape = force_shapes(r2, size);
-                float pressure = has_direction(r2, size) ? (pressure_term[k] + pressure_term_j) * shape.x : 0.0;
-                image_force[k] += pressure * offset + viscous_term[k] * volume_j * shape.y * (vj - v[k]);
+                float pressure_terms = pressure_term[k] * xj.w + pressure_term_j;
+                float pressure = has_direction(r2, size) ? pressure_terms * shape.x : 0.0;
+                image_force[k] += pressure * offset + volume[k] * viscous_term_j * shape.y * (vj - v[k]);
                 if (TENSION) {
                     vec2 color = color_shapes(r2, size);
                     image_gradient[k] -= volume_j * color.x * offset;
@@ -120,9 +127,12 @@ void main()
         if (i > tile.last) {
             break;
         }
-        float mass = own[k].w;
-        float rho = mass / volume[k];
-        vec3 a = params.gravity + force[k] / mass;
+        if (is_boundary(attributes[i])) {
+            acceleration[i] = vec4(0.0);
+            continue;
+        }
+        float rho = mass[k] / volume[k];
+        vec3 a = params.gravity + force[k] / mass[k];
         a += wall_acceleration(own[k].xyz, signs * v[k], rho);
         if (TENSION) {
             a += tension_acceleration(params.color_gradient_scale * color_gradient[k],

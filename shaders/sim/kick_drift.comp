@@ -31,7 +31,7 @@ uint find_fault(vec3 x, vec3 v)
 void main()
 {
     uint i = invocation_index();
-    if (i >= params.particle_count) {
+    if (i >= params.particle_count || is_boundary(attributes[i])) {
         return;
     }
     vec3 v = velocity[i].xyz + 0.5 * params.dt * acceleration[i].xyz;

@@ -78,6 +78,23 @@ const std::vector<NamedState>& states()
              }
              return set;
          }},
+        {"OnACollider", // a block that has sunk a little into an uneven plate, walls around and below
+         [] {
+             ParticleSet set = lattice_state({12, 5, 11}, glm::vec3(0.02f, 0.16f, 0.31f));
+             Random random(7);
+             for (glm::vec3& velocity : set.velocity) {
+                 velocity = random_vector(random) - 0.5f;
+             }
+             add_plate(set, 1.0f, 0.14f, 0.8f * d, 0.3f, 8);
+             return set;
+         }},
+        {"CollidersOnly", // of which two lie on top of each other
+         [] {
+             ParticleSet set;
+             add_plate(set, 1.0f, 0.01f, d, 0.0f, 9);
+             add_boundary_particle(set, set.position[0]);
+             return set;
+         }},
         {"InTheCorners",
          [] {
              ParticleSet set;
@@ -139,6 +156,8 @@ TEST_P(PassConformance, EachForceAlone)
     sim::SimulationSettings walls = nothing;
     walls.params.wall_mask = 0x3f;
     walls.params.wall_viscosity = 2.0f;
+    sim::SimulationSettings friction = nothing;
+    friction.params.friction[1] = 3.0f;
     sim::SimulationSettings some_walls = pressure;
     some_walls.params.wall_mask = 0x26; // x max, y min, z max
     for (const auto& [name, settings] : {std::pair{"pressure", pressure},
@@ -146,7 +165,8 @@ TEST_P(PassConformance, EachForceAlone)
                                          {"viscosity", viscosity},
                                          {"tension", tension},
                                          {"walls", walls},
-                                         {"some walls", some_walls}}) {
+                                         {"some walls", some_walls},
+                                         {"friction", friction}}) {
         SCOPED_TRACE(name);
         expect_conformance(settings, particles);
     }

@@ -24,6 +24,9 @@ void expect_all(const std::vector<conformance::PassError>& errors)
 TEST_F(Steps, OneStepIsTheTwins)
 {
     for (const std::uint32_t kernel : both_kernels) {
+        ParticleSet on_a_plate = lattice_state({10, 4, 10}, glm::vec3(0.2f, 0.33f, 0.2f));
+        add_plate(on_a_plate, 1.0f, 0.3f, 0.8f * test_spacing, 0.3f, 3);
+        expect_all(conformance::compare_steps(context(), on_a_plate, test_settings(kernel), 1));
         expect_all(conformance::compare_steps(context(), splash_state(4), test_settings(kernel), 1));
         expect_all(conformance::compare_steps(context(), lattice_state({20, 6, 10}, glm::vec3(0.5f * test_spacing)),
                                               test_settings(kernel), 1));
@@ -35,6 +38,9 @@ TEST_F(Steps, FiftyStepsKeepTheTwinsEnergyAndCenter)
     for (const std::uint32_t kernel : both_kernels) {
         expect_all(conformance::compare_steps(context(), lattice_state({10, 12, 10}, glm::vec3(0.5f * test_spacing)),
                                               test_settings(kernel), 50));
+        ParticleSet on_a_plate = lattice_state({10, 4, 10}, glm::vec3(0.2f, 0.36f, 0.2f));
+        add_plate(on_a_plate, 1.0f, 0.3f, 0.75f * test_spacing, 0.3f, 3);
+        expect_all(conformance::compare_steps(context(), on_a_plate, test_settings(kernel), 50));
     }
 }
 
@@ -181,6 +187,27 @@ TEST_F(Steps, NeighborStatisticsOfALattice)
     // corner: it has that corner and its 7 neighbors, each of which has one more.
     EXPECT_DOUBLE_EQ(statistics.mean, (26 + 6 * 17 + 12 * 11 + 8 * 7 + 8 + 8) / 28.0);
     EXPECT_EQ(statistics.coincident, 2u);
+}
+
+TEST_F(Steps, NeighborStatisticsAreThoseOfTheFluid)
+{
+    ParticleSet set;
+    add_particle(set, glm::vec3(0.5f));
+    add_boundary_particle(set, glm::vec3(0.5f, 0.45f, 0.5f));
+    add_boundary_particle(set, glm::vec3(0.5f, 0.45f, 0.5f));
+    sim::Simulation simulation(context(), set, test_settings(shared::KERNEL_PAPER));
+    EXPECT_EQ(simulation.neighbor_statistics().mean, 2.0);
+    EXPECT_EQ(simulation.neighbor_statistics().coincident, 0u);
+}
+
+TEST_F(Steps, BoundaryParticlesAreNeverAtFault)
+{
+    ParticleSet set;
+    add_particle(set, glm::vec3(0.5f));
+    add_boundary_particle(set, glm::vec3(0.2f));
+    add_boundary_particle(set, glm::vec3(0.5f, 1.0f, 1.5f));
+    set.velocity.back() = glm::vec3(1e6f);
+    EXPECT_EQ(fault_message(context(), set, test_settings(shared::KERNEL_WENDLAND), 3), "no fault");
 }
 
 } // namespace

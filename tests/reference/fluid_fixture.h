@@ -40,8 +40,17 @@ inline void add_particle(State& state, const glm::dvec3& position, double spacin
     state.velocity.push_back(velocity);
     state.acceleration.emplace_back(0.0);
     state.mass.push_back(1000.0 * spacing * spacing * spacing);
+    state.weight.push_back(1.0);
     state.density.push_back(1000.0);
     state.pressure.push_back(0.0);
+}
+
+/// Adds a boundary particle of material 1.
+inline void add_boundary_particle(State& state, const glm::dvec3& position)
+{
+    add_particle(state, position, 0.0);
+    state.attributes.back() = shared::pack_attributes(shared::STATE_COLLIDER, 1);
+    state.density.back() = 0.0;
 }
 
 /// Adds count.x * count.y * count.z particles of a cubic lattice, the first at `first`.

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cmath>
 #include <functional>
 #include <string>
 
@@ -31,6 +32,7 @@ inline sim::SimulationSettings test_settings(std::uint32_t kernel)
     params.speed_of_sound = 40.0f;
     params.gamma = 7.0f;
     params.viscosity = 1.0f;
+    params.friction[1] = 2.0f;
     params.dt = 2e-4f;
     params.speed_limit = 1000.0f;
     for (float& density : params.rest_density) {
@@ -50,6 +52,38 @@ inline void add_particle(ParticleSet& set, glm::vec3 position, glm::vec3 velocit
     set.mass[i] = test_rest_density * test_spacing * test_spacing * test_spacing;
 }
 
+inline glm::vec3 random_vector(Random& random)
+{
+    return {static_cast<float>(random.uniform()), static_cast<float>(random.uniform()),
+            static_cast<float>(random.uniform())};
+}
+
+/// A boundary particle of material 1.
+inline void add_boundary_particle(ParticleSet& set, const glm::vec3& position)
+{
+    add_particle(set, position);
+    set.attributes.back() = shared::pack_attributes(shared::STATE_COLLIDER, 1);
+    set.mass.back() = 0.0f;
+    set.weight.back() = 0.0f; // not known yet
+}
+
+/// A plate one boundary particle thick across a box `width` (m) wide and deep, `spacing` between its particles, each
+/// moved by up to `jitter` spacings along it.
+inline void add_plate(ParticleSet& set, float width, float height, float spacing, float jitter, std::uint64_t seed)
+{
+    Random random(seed);
+    const auto count = static_cast<int>(std::ceil(width / spacing));
+    for (int z = 0; z < count; ++z) {
+        for (int x = 0; x < count; ++x) {
+            const glm::vec3 cell(static_cast<float>(x) + 0.5f, 0.0f, static_cast<float>(z) + 0.5f);
+            const glm::vec3 shift = jitter * (2.0f * random_vector(random) - 1.0f) * glm::vec3(1.0f, 0.0f, 1.0f);
+            add_boundary_particle(set,
+                                  glm::clamp(spacing * (cell + shift), glm::vec3(0.0f), glm::vec3(width, 0.0f, width)) +
+                                      glm::vec3(0.0f, height, 0.0f));
+        }
+    }
+}
+
 /// A cubic lattice block of size.x * size.y * size.z particles whose first particle's center is `corner`.
 inline ParticleSet lattice_state(const glm::uvec3& size, const glm::vec3& corner)
 {
@@ -62,12 +96,6 @@ inline ParticleSet lattice_state(const glm::uvec3& size, const glm::vec3& corner
         }
     }
     return set;
-}
-
-inline glm::vec3 random_vector(Random& random)
-{
-    return {static_cast<float>(random.uniform()), static_cast<float>(random.uniform()),
-            static_cast<float>(random.uniform())};
 }
 
 /// `count` particles anywhere in the part [low, high] of the unit box, with velocities up to 1 m/s along each axis.
