@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 #include "core/error.h"
 #include "core/parallel_for.h"
@@ -34,7 +33,8 @@ double candidates_a_particle(std::size_t count)
 
 } // namespace
 
-VolumeSamples fill_with_blue_noise(const Solid& solid, std::size_t count, std::uint64_t seed)
+VolumeSamples fill_with_blue_noise(const Solid& solid, std::size_t count, std::uint64_t seed,
+                                   const RelaxationSettings& relaxation)
 {
     const glm::dvec3 size(solid.bounds().size());
     const auto check = [&](double candidates) {
@@ -68,8 +68,7 @@ VolumeSamples fill_with_blue_noise(const Solid& solid, std::size_t count, std::u
         points[i] = glm::vec3(region.grid.origin + cell_size * (glm::dvec3(cell) + glm::dvec3(x, y, z)));
     });
 
-    // 2 r_max: the nearest neighbors in the densest packing of spheres.
-    const double densest = 2.0 * std::cbrt(samples.particle_volume / (4.0 * std::numbers::sqrt2));
+    const double densest = densest_packing * samples.spacing;
     const auto inside = [&](std::uint32_t i) {
         return solid.contains(glm::dvec3(points[i]));
     };
@@ -88,7 +87,7 @@ VolumeSamples fill_with_blue_noise(const Solid& solid, std::size_t count, std::u
     for (const std::uint32_t i : cells.order()) { // neighbors in space side by side
         samples.positions.push_back(unordered[i]);
     }
-    relax_particles(samples.positions, solid);
+    relax_particles(samples.positions, solid, relaxation);
     return samples;
 }
 

@@ -40,7 +40,7 @@ VolumeSamples sample_volume(const Solid& solid, const VolumeRequest& request)
     }
     const double spacing = asked != nullptr ? asked->meters : std::cbrt(volume / static_cast<double>(count));
     check_lattice(size, spacing, range);
-    return request.lattice == Lattice::BlueNoise ? fill_with_blue_noise(solid, count, request.seed)
+    return request.lattice == Lattice::BlueNoise ? fill_with_blue_noise(solid, count, request.seed, request.relaxation)
                                                  : fill_with_lattice(solid, request.lattice, spacing, range);
 }
 

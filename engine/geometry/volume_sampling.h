@@ -7,6 +7,7 @@
 
 #include "core/aabb.h"
 #include "geometry/measure_volume.h"
+#include "geometry/relaxation.h"
 #include "geometry/sample_amount.h"
 #include "geometry/solid.h"
 #include "geometry/triangle_mesh.h"
@@ -23,7 +24,8 @@ enum class Lattice {
 struct VolumeRequest {
     Lattice lattice = Lattice::Cubic;
     SampleAmount amount = PointCount{};
-    std::uint64_t seed = 1; ///< of blue noise: lattices do not depend on it
+    std::uint64_t seed = 1;        ///< of blue noise: lattices do not depend on it
+    RelaxationSettings relaxation; ///< of blue noise
 };
 
 /// A shape filled with particles. With masses rest density * particle_volume it starts at its rest density and at its
