@@ -282,6 +282,26 @@ mutation "colliders: a tile with one of them has no density" \
     'count_boundary(tile) == tile.last - tile.first + 1u' \
     'count_boundary(tile) > 0u' \
     conformance_tests '*PassConformance.AllPasses/OnACollider*'
+mutation "colliders: a layer has no weight, and leaks" \
+    shaders/sim/boundary_weight.comp \
+    '? 1.0 / (d3' \
+    '? 0.1 / (d3' \
+    physics_short_tests 'Collider.APlateOneParticleThickDoesNotLeak'
+mutation "scenes: fluid starts where other fluid is" \
+    engine/run/taken_space.cpp \
+    'inside || is_near_a_point(points[i])' \
+    'inside' \
+    unit_tests 'OverlappingFluids.*'
+mutation "scenes: colliders are hollow" \
+    engine/run/scene_colliders.cpp \
+    'collider.solid ? placed_solid' \
+    '!collider.solid ? placed_solid' \
+    unit_tests 'SceneColliders.*'
+mutation "scenes: blue noise is relaxed as if there were no walls" \
+    engine/run/scene_particles.cpp \
+    'request.relaxation.mirrors = Aabb{scene.domain.min, scene.domain.max};' \
+    '' \
+    unit_tests 'SceneParticles.BlueNoiseBetweenWallsStartsAtRest'
 mutation "forces: gravity left out" \
     shaders/sim/forces.comp \
     'a = params.gravity + force[k]' \

@@ -21,11 +21,15 @@ double support_radius(const Scene& scene)
     return static_cast<double>(scene.particles.spacing) * static_cast<double>(scene.particles.support_ratio);
 }
 
-/// Pa s, of the fluid or at the walls.
+/// Pa s, of the fluid, at the walls or at a collider.
 double largest_viscosity(const Scene& scene)
 {
     const float at_walls = scene.domain.walls ? scene.domain.wall_viscosity : 0.0f;
-    return static_cast<double>(std::max(scene.physics.viscosity, at_walls));
+    float largest = std::max(scene.physics.viscosity, at_walls);
+    for (const ColliderBody& collider : scene.colliders) {
+        largest = std::max(largest, collider.friction);
+    }
+    return static_cast<double>(largest);
 }
 
 /// How far x can fall along gravity before it meets the domain's border, times |g|.
@@ -104,6 +108,9 @@ double expected_speed(const Scene& scene, const ParticleSet& particles)
 {
     double fastest = 0.0;
     for (std::size_t i = 0; i < particles.size(); ++i) {
+        if (shared::is_boundary(particles.attributes[i])) {
+            continue;
+        }
         const double start = glm::length(glm::dvec3(particles.velocity[i]));
         const double fall = std::sqrt(2.0 * fall_work(scene, glm::dvec3(particles.position[i])));
         fastest = std::max(fastest, start + fall);
@@ -149,6 +156,7 @@ FluidSettings fluid_settings(const Scene& scene, const ParticleSet& particles)
     const SceneMaterials materials = scene_materials(scene);
     for (std::size_t i = 0; i < materials.materials.size(); ++i) {
         params.rest_density[i] = materials.materials[i].rest_density;
+        params.friction[i] = materials.materials[i].friction;
     }
 
     const double frame_rate = static_cast<double>(scene.time.frame_rate);

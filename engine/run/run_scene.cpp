@@ -207,7 +207,10 @@ RunSummary run_scene(const gpu::Context& context, const Scene& scene, const RunO
         video.emplace(options.video, scene.render.width, scene.render.height, playback_rate(scene));
     }
 
-    const ParticleSet initial = make_particles(scene, sim::Simulation::particle_limit(context));
+    const auto [initial, notes] = make_scene_particles(scene, sim::Simulation::particle_limit(context));
+    for (const std::string& note : notes) {
+        log_warning(fmt::format("{}: {}", scene.name, note));
+    }
     const FluidSettings settings = fluid_settings(scene, initial);
     for (const std::string& warning : settings.warnings) {
         log_warning(fmt::format("{}: {}", scene.name, warning));

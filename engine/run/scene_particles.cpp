@@ -5,45 +5,44 @@
 #include <numbers>
 
 #include <fmt/format.h>
-#include <glm/gtc/matrix_transform.hpp>
 
 #include "core/aabb.h"
 #include "core/error.h"
+#include "core/overloaded.h"
+#include "geometry/relaxation.h"
 #include "geometry/volume_sampling.h"
-#include "run/load_mesh.h"
+#include "particles/boundary_distance.h"
+#include "run/placed_mesh.h"
+#include "run/scene_colliders.h"
+#include "run/taken_space.h"
 #include "scene/materials.h"
+#include "shared/sph_params.h"
 
 namespace meltpoint {
 
 namespace {
 
-template <class... Fs>
-struct Overloaded : Fs... {
-    using Fs::operator()...;
-};
-template <class... Fs>
-Overloaded(Fs...) -> Overloaded<Fs...>; // which clang 16 does not deduce by itself
-
-/// Scaled to its size, turned about its center, its center put in its place.
-TriangleMesh placed_mesh(const MeshShape& shape)
+/// Fluid `f` of the scene as blue noise, relaxed as its kernel and the domain's walls will see it.
+VolumeSamples sample_blue_noise(const Scene& scene, std::size_t f)
 {
-    TriangleMesh mesh = load_mesh(shape.mesh);
-    const Aabb box = bounds(mesh);
-    const glm::vec3 extent = box.size();
-    const float largest = std::max({extent.x, extent.y, extent.z});
-    const float scale = shape.size ? *shape.size / largest : 1.0f;
-    glm::mat4 matrix = glm::translate(glm::mat4(1.0f), shape.position);
-    matrix = glm::rotate(matrix, glm::radians(shape.rotation.z), glm::vec3(0.0f, 0.0f, 1.0f));
-    matrix = glm::rotate(matrix, glm::radians(shape.rotation.y), glm::vec3(0.0f, 1.0f, 0.0f));
-    matrix = glm::rotate(matrix, glm::radians(shape.rotation.x), glm::vec3(1.0f, 0.0f, 0.0f));
-    matrix = glm::scale(matrix, glm::vec3(scale));
-    matrix = glm::translate(matrix, -box.center());
-    transform(mesh, matrix);
-    return mesh;
+    VolumeRequest request{.lattice = Lattice::BlueNoise,
+                          .amount = PointSpacing{static_cast<double>(scene.particles.spacing)},
+                          .seed = scene.seed + f};
+    // Narrower kernels hardly see a fluid, wider ones see none of what is left uneven.
+    request.relaxation.support_ratio = std::clamp(static_cast<double>(scene.particles.support_ratio), 2.0, 3.0);
+    if (scene.domain.walls) {
+        request.relaxation.mirrors = Aabb{scene.domain.min, scene.domain.max};
+    }
+    return sample_volume(*placed_solid(scene.fluids[f].shape), request);
 }
 
-VolumeSamples sample_shape(const FluidBody& body, double spacing)
+VolumeSamples sample_fluid(const Scene& scene, std::size_t f)
 {
+    const FluidBody& body = scene.fluids[f];
+    const auto spacing = static_cast<double>(scene.particles.spacing);
+    if (body.lattice == FluidLattice::BlueNoise) {
+        return sample_blue_noise(scene, f);
+    }
     return std::visit(Overloaded{
                           [&](const BlockShape& block) {
                               return sample_block({block.min, block.max}, spacing);
@@ -100,9 +99,53 @@ void check_inside(const Scene& scene, const VolumeSamples& samples, std::size_t 
                       scene.name, count, limit, scene.particles.spacing);
 }
 
+/// The least distance of neighbors in a filled shape, m.
+float least_distance(const FluidBody& body, const VolumeSamples& samples, double spacing)
+{
+    double least = samples.spacing;
+    if (body.lattice == FluidLattice::BlueNoise) {
+        least *= relaxed_radius * densest_packing;
+    } else if (const auto* block = std::get_if<BlockShape>(&body.shape)) { // its spacing may differ from axis to axis
+        const glm::dvec3 size = glm::dvec3(block->max) - glm::dvec3(block->min);
+        const glm::dvec3 step = size / glm::max(glm::round(size / spacing), 1.0);
+        least = std::min({step.x, step.y, step.z});
+    }
+    return static_cast<float>(least);
+}
+
+void add_fluid(ParticleSet& particles, const FluidBody& body, const VolumeSamples& samples, std::uint32_t material)
+{
+    const std::size_t first = particles.size();
+    particles.resize(first + samples.positions.size());
+    glm::dvec3 center(0.0);
+    for (const glm::vec3& position : samples.positions) {
+        center += glm::dvec3(position) / static_cast<double>(samples.positions.size());
+    }
+    const glm::vec3 spin_center = body.spin_center.value_or(glm::vec3(center));
+    for (std::size_t i = 0; i < samples.positions.size(); ++i) {
+        const glm::vec3& x = samples.positions[i];
+        particles.position[first + i] = x;
+        particles.velocity[first + i] =
+            body.velocity + body.velocity_gradient * x + glm::cross(body.spin, x - spin_center);
+        particles.mass[first + i] = static_cast<float>(double{body.rest_density} * samples.particle_volume);
+        particles.attributes[first + i] = shared::pack_attributes(shared::STATE_FLUID, material);
+    }
+}
+
+void add_boundary(ParticleSet& particles, const std::vector<glm::vec3>& points, std::uint32_t material)
+{
+    const std::size_t first = particles.size();
+    particles.resize(first + points.size());
+    for (std::size_t i = 0; i < points.size(); ++i) {
+        particles.position[first + i] = points[i];
+        particles.weight[first + i] = 0.0f; // the simulation's to find out
+        particles.attributes[first + i] = shared::pack_attributes(shared::STATE_COLLIDER, material);
+    }
+}
+
 } // namespace
 
-ParticleSet make_particles(const Scene& scene, std::uint64_t limit)
+SceneParticles make_scene_particles(const Scene& scene, std::uint64_t limit)
 {
     const double spacing = static_cast<double>(scene.particles.spacing);
     double expected = 0.0;
@@ -113,33 +156,47 @@ ParticleSet make_particles(const Scene& scene, std::uint64_t limit)
         throw_too_many(scene, expected, limit);
     }
 
-    const SceneMaterials materials = scene_materials(scene);
-    ParticleSet particles;
-    for (std::size_t f = 0; f < scene.fluids.size(); ++f) {
-        const FluidBody& body = scene.fluids[f];
-        const VolumeSamples samples = sample_shape(body, spacing);
-        check_inside(scene, samples, f);
-        const std::size_t first = particles.size();
-        if (first + samples.positions.size() > limit) {
-            throw_too_many(scene, static_cast<double>(first + samples.positions.size()), limit);
-        }
-        particles.resize(first + samples.positions.size());
-
-        glm::dvec3 center(0.0);
-        for (const glm::vec3& position : samples.positions) {
-            center += glm::dvec3(position) / static_cast<double>(samples.positions.size());
-        }
-        const glm::vec3 spin_center = body.spin_center.value_or(glm::vec3(center));
-        for (std::size_t i = 0; i < samples.positions.size(); ++i) {
-            const glm::vec3& x = samples.positions[i];
-            particles.position[first + i] = x;
-            particles.velocity[first + i] =
-                body.velocity + body.velocity_gradient * x + glm::cross(body.spin, x - spin_center);
-            particles.mass[first + i] = static_cast<float>(double{body.rest_density} * samples.particle_volume);
-            particles.attributes[first + i] = shared::pack_attributes(shared::STATE_FLUID, materials.of_fluid[f]);
-        }
+    SceneParticles result;
+    const std::vector<ColliderSamples> colliders = sample_colliders(scene, limit);
+    const std::uint32_t kernel = scene.kernel == SphKernel::Wendland ? shared::KERNEL_WENDLAND : shared::KERNEL_PAPER;
+    const double support_ratio = static_cast<double>(scene.particles.support_ratio);
+    const auto clearance = static_cast<float>(boundary_distance(kernel, support_ratio) * spacing);
+    TakenSpace taken;
+    for (std::size_t c = 0; c < colliders.size(); ++c) {
+        taken.add(fmt::format("collider.{}", c), colliders[c], clearance);
     }
-    return particles;
+
+    const SceneMaterials materials = scene_materials(scene);
+    for (std::size_t f = 0; f < scene.fluids.size(); ++f) {
+        const std::string name = fmt::format("fluid.{}", f);
+        VolumeSamples samples = sample_fluid(scene, f);
+        check_inside(scene, samples, f);
+        const Pitch pitch{.nearest = least_distance(scene.fluids[f], samples, spacing),
+                          .spacing = static_cast<float>(samples.spacing)};
+        taken.clear(name, samples.positions, pitch, result.notes);
+        if (samples.positions.empty()) {
+            throw input_error("{}: {}, so nothing is left of it", scene.name, result.notes.back());
+        }
+        if (result.particles.size() + samples.positions.size() > limit) {
+            throw_too_many(scene, static_cast<double>(result.particles.size() + samples.positions.size()), limit);
+        }
+        if (f + 1 < scene.fluids.size()) {
+            taken.add(name, samples.positions, pitch);
+        }
+        add_fluid(result.particles, scene.fluids[f], samples, materials.of_fluid[f]);
+    }
+    for (std::size_t c = 0; c < colliders.size(); ++c) {
+        add_boundary(result.particles, colliders[c].points, materials.of_collider[c]);
+    }
+    if (result.particles.size() > limit) {
+        throw_too_many(scene, static_cast<double>(result.particles.size()), limit);
+    }
+    return result;
+}
+
+ParticleSet make_particles(const Scene& scene, std::uint64_t limit)
+{
+    return make_scene_particles(scene, limit).particles;
 }
 
 } // namespace meltpoint

@@ -1,15 +1,28 @@
 #pragma once
 
 #include <cstdint>
+#include <string>
+#include <vector>
 
 #include "particles/particle_set.h"
 #include "scene/scene.h"
 
 namespace meltpoint {
 
-/// The particles of a scene's fluids at time 0: shapes filled, masses from rest density and measured volume, velocities
-/// set. Material of a particle: its fluid's entry in scene_materials(scene). Throws Input for meshes that cannot be
-/// read or filled, fluid outside the domain, and more than `limit` particles (what the device holds).
+struct SceneParticles {
+    ParticleSet particles;          ///< fluids in the order of the file, then colliders
+    std::vector<std::string> notes; ///< sentences: fluid left out because its place was taken
+};
+
+/// The particles of a scene at time 0: shapes filled, masses from rest density and measured volume, velocities set;
+/// colliders as boundary particles, whose weights the simulation computes. Material of a particle: its fluid's or
+/// collider's entry in scene_materials(scene). Where bodies overlap, fluid gives way to colliders, and to fluids
+/// earlier in the file: such particles are left out, the others keep their masses. Throws Input for meshes that cannot
+/// be read or filled, fluid outside the domain or of which nothing is left, colliders outside the domain, and more than
+/// `limit` particles (what the device holds).
+[[nodiscard]] SceneParticles make_scene_particles(const Scene& scene, std::uint64_t limit);
+
+/// Without the notes.
 [[nodiscard]] ParticleSet make_particles(const Scene& scene, std::uint64_t limit);
 
 } // namespace meltpoint

@@ -175,16 +175,17 @@ Key<Owner> choice(std::string_view name, Field field,
     return result;
 }
 
-/// Which of FluidBody's shapes a fluid has; setting it starts that shape afresh.
-FluidKey shape_key()
+/// Which of its shapes a body has; setting it starts that shape afresh.
+template <class Body>
+Key<Body> shape_key(std::string_view description)
 {
     return {.name = "shape",
             .required = true,
-            .description = "where the fluid starts; each shape has keys of its own",
+            .description = description,
             .rule = {.kind = ValueKind::Choice, .choices = {"block", "sphere", "mesh"}},
-            .get = [](const FluidBody& body) { return SceneValue{std::string(shape_name(body))}; },
+            .get = [](const Body& body) { return SceneValue{std::string(shape_name(body.shape))}; },
             .set =
-                [](FluidBody& body, const SceneValue& value) {
+                [](Body& body, const SceneValue& value) {
                     const auto& name = std::get<std::string>(value.data);
                     if (name == "block") {
                         body.shape = BlockShape{};
@@ -196,17 +197,19 @@ FluidKey shape_key()
                 }};
 }
 
-FluidKey required_of(std::string_view shape, FluidKey fluid_key)
+template <class Body>
+Key<Body> required_of(std::string_view shape, Key<Body> body_key)
 {
-    fluid_key.shape = shape;
-    fluid_key.required = true;
-    return fluid_key;
+    body_key.shape = shape;
+    body_key.required = true;
+    return body_key;
 }
 
-FluidKey optional_of(std::string_view shape, FluidKey fluid_key)
+template <class Body>
+Key<Body> optional_of(std::string_view shape, Key<Body> body_key)
 {
-    fluid_key.shape = shape;
-    return fluid_key;
+    body_key.shape = shape;
+    return body_key;
 }
 
 // --- the tables ----------------------------------------------------------------------------------
@@ -276,11 +279,13 @@ std::vector<SceneKey> make_scene_keys()
     };
 }
 
-std::vector<FluidKey> make_fluid_keys()
+/// "shape" and the keys of each shape.
+template <class Body>
+std::vector<Key<Body>> shape_keys(std::string_view description)
 {
-    const auto k = [](auto... arguments) { return key<FluidBody>(arguments...); };
+    const auto k = [](auto... arguments) { return key<Body>(arguments...); };
     return {
-        shape_key(),
+        shape_key<Body>(description),
         required_of("block", k("min", SHAPE_FIELD(BlockShape, min), "m", PLACE, "lowest corner")),
         required_of("block", k("max", SHAPE_FIELD(BlockShape, max), "m", PLACE, "highest corner")),
         required_of("sphere", k("center", SHAPE_FIELD(SphereShape, center), "m", PLACE, "center")),
@@ -290,13 +295,40 @@ std::vector<FluidKey> make_fluid_keys()
         required_of("mesh", k("position", SHAPE_FIELD(MeshShape, position), "m", PLACE, "where the center of the mesh's bounding box goes")),
         optional_of("mesh", k("size", SHAPE_FIELD(MeshShape, size), "m", Range{1e-4, 1e4}, "largest extent after scaling; auto: the mesh's own units are meters")),
         optional_of("mesh", k("rotation", SHAPE_FIELD(MeshShape, rotation), "degrees", Range{-360, 360}, "about x, then y, then z, about its center")),
+    };
+}
+
+template <class Body>
+std::vector<Key<Body>> with_shape_keys(std::string_view description, const std::vector<Key<Body>>& others)
+{
+    std::vector<Key<Body>> keys = shape_keys<Body>(description);
+    keys.insert(keys.end(), others.begin(), others.end());
+    return keys;
+}
+
+std::vector<FluidKey> make_fluid_keys()
+{
+    const auto k = [](auto... arguments) { return key<FluidBody>(arguments...); };
+    return with_shape_keys<FluidBody>("where the fluid starts; each shape has keys of its own", {
+        choice<FluidBody>("lattice", FIELD(lattice), {{"cubic", FluidLattice::Cubic}, {"blue-noise", FluidLattice::BlueNoise}}, "how its particles lie at the start: in rows, or evenly without any, relaxed until the density varies by 1 %"),
         k("rest_density", FIELD(rest_density), "kg/m^3", Range{1e-3, 1e5}, "density without pressure"),
         k("velocity", FIELD(velocity), "m/s", SPEED, "at the start, of the whole body"),
         k("velocity_gradient", FIELD(velocity_gradient), "1/s", SPEED, "rows of a matrix; the matrix times the position adds to the velocity"),
         k("spin", FIELD(spin), "rad/s", SPEED, "spin x (position - spin_center) adds to the velocity"),
         k("spin_center", FIELD(spin_center), "m", PLACE, "what it spins about; auto: the body's center"),
         k("color", FIELD(color), "linear RGB", UNIT, "in render.color = \"material\""),
-    };
+    });
+}
+
+std::vector<ColliderKey> make_collider_keys()
+{
+    const auto k = [](auto... arguments) { return key<ColliderBody>(arguments...); };
+    return with_shape_keys<ColliderBody>("what it is; each shape has keys of its own", {
+        k("spacing", FIELD(spacing), "particle spacings", Range{0.25, 0.75}, "distance of the boundary particles on its surface; from 0.8 on fluid would leak through"),
+        flag<ColliderBody>("solid", FIELD(solid), "fluid that would start inside is left out; false: a hollow shell, which may hold fluid"),
+        k("friction", FIELD(friction), "Pa s", Range{0, 1e4}, "viscosity of fluid against it; 0 lets it slip freely"),
+        k("color", FIELD(color), "linear RGB", UNIT, "in render.color = \"material\"; gray in the other modes"),
+    });
 }
 
 #undef SHAPE_FIELD
@@ -317,14 +349,20 @@ std::span<const FluidKey> fluid_keys()
     return keys;
 }
 
-std::string_view shape_name(const FluidBody& body)
+std::span<const ColliderKey> collider_keys()
+{
+    static const std::vector<ColliderKey> keys = make_collider_keys();
+    return keys;
+}
+
+std::string_view shape_name(const BodyShape& shape)
 {
     struct Name {
         std::string_view operator()(const BlockShape&) const { return "block"; }
         std::string_view operator()(const SphereShape&) const { return "sphere"; }
         std::string_view operator()(const MeshShape&) const { return "mesh"; }
     };
-    return std::visit(Name{}, body.shape);
+    return std::visit(Name{}, shape);
 }
 
 } // namespace meltpoint

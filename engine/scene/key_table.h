@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <functional>
 #include <optional>
 #include <span>
@@ -15,8 +16,8 @@ namespace meltpoint {
 /// default is what get() finds in a default-constructed owner.
 template <class Owner>
 struct Key {
-    std::string_view name;  ///< "physics.viscosity"; of a [[fluid]] without the prefix: "velocity"
-    std::string_view shape; ///< of a [[fluid]]: the one shape that has this key, empty for all
+    std::string_view name;  ///< "physics.viscosity"; of a body ([[fluid]], [[collider]]) without the prefix: "velocity"
+    std::string_view shape; ///< of a body: the one shape that has this key, empty for all
     bool required = false;  ///< has no default
     std::string_view unit;  ///< empty when there is none
     std::string_view description;
@@ -27,13 +28,38 @@ struct Key {
 
 using SceneKey = Key<Scene>;
 using FluidKey = Key<FluidBody>;
+using ColliderKey = Key<ColliderBody>;
 
-/// In the order in which they are written. A fluid's first key is "shape"; the keys of a shape may only be used on a
+/// In the order in which they are written. A body's first key is "shape"; the keys of a shape may only be used on a
 /// body that has it.
 std::span<const SceneKey> scene_keys();
 std::span<const FluidKey> fluid_keys();
+std::span<const ColliderKey> collider_keys();
 
-/// The name of the body's shape: "block", "sphere" or "mesh".
-std::string_view shape_name(const FluidBody& body);
+/// Its name: "block", "sphere" or "mesh".
+std::string_view shape_name(const BodyShape& shape);
+
+/// The key of that name, null if there is none.
+template <class Owner>
+[[nodiscard]] const Key<Owner>* find_key(std::span<const Key<Owner>> keys, std::string_view name)
+{
+    const auto found = std::ranges::find(keys, name, &Key<Owner>::name);
+    return found == keys.end() ? nullptr : &*found;
+}
+
+/// Does a body of that shape have this key?
+template <class Body>
+[[nodiscard]] bool belongs_to(const Key<Body>& key, std::string_view shape)
+{
+    return key.shape.empty() || key.shape == shape;
+}
+
+/// Calls visit(name, bodies, keys) for each of a scene's arrays of bodies: name is that of its [[tables]].
+template <class AnyScene, class Visit>
+void for_each_body_list(AnyScene& scene, const Visit& visit)
+{
+    visit(std::string_view("fluid"), scene.fluids, fluid_keys());
+    visit(std::string_view("collider"), scene.colliders, collider_keys());
+}
 
 } // namespace meltpoint

@@ -1,6 +1,6 @@
 #pragma once
 
-#include <cstddef>
+#include <algorithm>
 #include <cstdint>
 #include <vector>
 
@@ -10,33 +10,38 @@
 
 namespace meltpoint {
 
-/// What the particles of a fluid share: an entry of the device's material table.
+/// What the particles of a fluid or a collider share: an entry of the device's material table.
 struct Material {
-    float rest_density = 0.0f; ///< kg/m^3
+    float rest_density = 0.0f; ///< kg/m^3; 0 for colliders, which have no mass
     glm::vec3 color{0.0f};     ///< linear RGB
+    float friction = 0.0f;     ///< Pa s, of fluid against a collider
 
     bool operator==(const Material&) const = default;
 };
 
 struct SceneMaterials {
-    std::vector<Material> materials;     ///< distinct, in order of first use
-    std::vector<std::uint32_t> of_fluid; ///< for each Scene::fluids, its index into materials
+    std::vector<Material> materials;        ///< distinct, in order of first use
+    std::vector<std::uint32_t> of_fluid;    ///< for each Scene::fluids, its index into materials
+    std::vector<std::uint32_t> of_collider; ///< likewise for Scene::colliders
 };
 
-/// Fluids of equal rest density and color are one material.
+/// Fluids of equal rest density and color are one material, and so are colliders of equal color and friction.
 inline SceneMaterials scene_materials(const Scene& scene)
 {
     SceneMaterials result;
-    for (const FluidBody& body : scene.fluids) {
-        const Material material{body.rest_density, body.color};
-        std::size_t index = 0;
-        while (index < result.materials.size() && result.materials[index] != material) {
-            ++index;
-        }
-        if (index == result.materials.size()) {
+    const auto index_of = [&](const Material& material) {
+        const auto found = std::find(result.materials.begin(), result.materials.end(), material);
+        const auto index = static_cast<std::uint32_t>(found - result.materials.begin());
+        if (found == result.materials.end()) {
             result.materials.push_back(material);
         }
-        result.of_fluid.push_back(static_cast<std::uint32_t>(index));
+        return index;
+    };
+    for (const FluidBody& body : scene.fluids) {
+        result.of_fluid.push_back(index_of({.rest_density = body.rest_density, .color = body.color}));
+    }
+    for (const ColliderBody& body : scene.colliders) {
+        result.of_collider.push_back(index_of({.color = body.color, .friction = body.friction}));
     }
     return result;
 }

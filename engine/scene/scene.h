@@ -64,15 +64,29 @@ struct MeshShape {
     glm::vec3 rotation{0.0f};  ///< degrees about x, then y, then z, about the center
 };
 
+using BodyShape = std::variant<BlockShape, SphereShape, MeshShape>;
+
+enum class FluidLattice { Cubic, BlueNoise };
+
 struct FluidBody {
-    std::variant<BlockShape, SphereShape, MeshShape> shape;
-    float rest_density = 1000.0f; ///< kg/m^3
-    glm::vec3 velocity{0.0f};     ///< m/s
+    BodyShape shape;
+    FluidLattice lattice = FluidLattice::Cubic; ///< how its particles lie at the start
+    float rest_density = 1000.0f;               ///< kg/m^3
+    glm::vec3 velocity{0.0f};                   ///< m/s
     glm::mat3 velocity_gradient{
         0.0f};            ///< 1/s: adds gradient * position (a column-major glm matrix: gradient[column][row])
     glm::vec3 spin{0.0f}; ///< rad/s: adds spin x (position - spin_center)
     std::optional<glm::vec3> spin_center; ///< m; auto: the body's center
     glm::vec3 color{0.16f, 0.45f, 0.78f}; ///< linear RGB of the material color mode
+};
+
+/// A solid that does not move. Fluid meets boundary particles on its surface (Akinci et al. 2012).
+struct ColliderBody {
+    BodyShape shape;
+    float spacing = 0.7f;                 ///< of its boundary particles, in particle spacings
+    bool solid = true;                    ///< no fluid starts inside; false: a hollow shell
+    float friction = 0.0f;                ///< of fluid against it, Pa s; 0 is free slip
+    glm::vec3 color{0.55f, 0.50f, 0.44f}; ///< linear RGB
 };
 
 enum class Projection { Perspective, Orthographic };
@@ -110,6 +124,7 @@ struct Scene {
     FluidPhysics physics;
     TimeSettings time;
     std::vector<FluidBody> fluids;
+    std::vector<ColliderBody> colliders;
     CameraSettings camera;
     RenderSettings render;
 };

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include <fmt/format.h>
+#include <glm/gtx/component_wise.hpp>
 
 #include "core/error.h"
 #include "scene/key_table.h"
@@ -17,7 +18,7 @@ namespace {
 // touches the floor at 0 although 0.3f - 0.3f is no safe bet after other arithmetic.
 constexpr float ROUNDING = 1e-5f;
 
-constexpr std::size_t MOST_FLUIDS = 1024;
+constexpr std::size_t MOST_BODIES = 1024;
 
 std::string text(const glm::vec3& v)
 {
@@ -36,6 +37,8 @@ public:
         check_camera();
         check_render();
         check_fluids();
+        check_colliders();
+        check_materials();
     }
 
 private:
@@ -60,19 +63,32 @@ private:
         for (const SceneKey& key : scene_keys()) {
             check_key(key, "", scene_);
         }
-        for (std::size_t i = 0; i < scene_.fluids.size(); ++i) {
-            for (const FluidKey& key : fluid_keys()) {
-                if (key.shape.empty() || key.shape == shape_name(scene_.fluids[i])) {
-                    check_key(key, fmt::format("fluid.{}.", i), scene_.fluids[i]);
+        for_each_body_list(scene_, [&](std::string_view name, const auto& bodies, const auto& keys) {
+            for (std::size_t i = 0; i < bodies.size(); ++i) {
+                for (const auto& key : keys) {
+                    if (belongs_to(key, shape_name(bodies[i].shape))) {
+                        check_key(key, fmt::format("{}.{}.", name, i), bodies[i]);
+                    }
                 }
             }
-        }
+        });
     }
 
     void check_box(const std::string& prefix, const glm::vec3& min, const glm::vec3& max) const
     {
         if (!glm::all(glm::lessThan(min, max))) {
             fail(prefix + "max", "is {}, but must be above {}min = {} in x, y and z", text(max), prefix, text(min));
+        }
+    }
+
+    /// A block, or a plate: one that is flat along one axis.
+    void check_plate(const std::string& prefix, const BlockShape& block) const
+    {
+        const glm::vec3 size = block.max - block.min;
+        const int flat = glm::compAdd(glm::ivec3(glm::equal(size, glm::vec3(0.0f))));
+        if (!glm::all(glm::greaterThanEqual(size, glm::vec3(0.0f))) || flat > 1) {
+            fail(prefix + "max", "is {}, but must be above {}min = {} in x, y and z (equal in one of them: a plate)",
+                 text(block.max), prefix, text(block.min));
         }
     }
 
@@ -130,20 +146,44 @@ private:
         if (scene_.fluids.empty()) {
             fail("fluid", "is missing: a scene has at least one [[fluid]]");
         }
-        if (scene_.fluids.size() > MOST_FLUIDS) {
-            fail("fluid", "is there {} times, but a scene has at most {} fluids", scene_.fluids.size(), MOST_FLUIDS);
+        if (scene_.fluids.size() > MOST_BODIES) {
+            fail("fluid", "is there {} times, but a scene has at most {} fluids", scene_.fluids.size(), MOST_BODIES);
         }
         for (std::size_t i = 0; i < scene_.fluids.size(); ++i) {
             const std::string prefix = fmt::format("fluid.{}.", i);
             std::visit([&](const auto& shape) { check_shape(prefix, shape); }, scene_.fluids[i].shape);
         }
-        const SceneMaterials materials = scene_materials(scene_);
-        if (materials.materials.size() > shared::MAX_MATERIALS) {
-            const auto first_beyond = std::ranges::find(materials.of_fluid, shared::MAX_MATERIALS);
-            fail(fmt::format("fluid.{}", first_beyond - materials.of_fluid.begin()),
-                 "makes {} different fluids (by rest density and color), but a scene has at most {}",
-                 materials.materials.size(), shared::MAX_MATERIALS);
+    }
+
+    /// What of them sticks out of the domain is cut off; what is left is checked once it is sampled.
+    void check_colliders() const
+    {
+        if (scene_.colliders.size() > MOST_BODIES) {
+            fail("collider", "is there {} times, but a scene has at most {} colliders", scene_.colliders.size(),
+                 MOST_BODIES);
         }
+        for (std::size_t i = 0; i < scene_.colliders.size(); ++i) {
+            if (const auto* block = std::get_if<BlockShape>(&scene_.colliders[i].shape)) {
+                check_plate(fmt::format("collider.{}.", i), *block);
+            }
+        }
+    }
+
+    void check_materials() const
+    {
+        const SceneMaterials materials = scene_materials(scene_);
+        if (materials.materials.size() <= shared::MAX_MATERIALS) {
+            return;
+        }
+        const auto fluid = std::ranges::find(materials.of_fluid, shared::MAX_MATERIALS);
+        const auto collider = std::ranges::find(materials.of_collider, shared::MAX_MATERIALS);
+        const std::string first_beyond = fluid != materials.of_fluid.end()
+                                             ? fmt::format("fluid.{}", fluid - materials.of_fluid.begin())
+                                             : fmt::format("collider.{}", collider - materials.of_collider.begin());
+        fail(first_beyond,
+             "makes {} different materials (fluids by rest density and color, colliders by friction and color), but a "
+             "scene has at most {}",
+             materials.materials.size(), shared::MAX_MATERIALS);
     }
 
     void check_shape(const std::string& prefix, const BlockShape& block) const

@@ -16,6 +16,8 @@ drop` the scene of this folder with that name, from anywhere. Start from a copy 
 - [teapot_drop.toml](teapot_drop.toml): a teapot of fluid falls and splashes. The default.
 - [dam_break.toml](dam_break.toml): a column of fluid collapses.
 - [drop.toml](drop.toml): a ball of fluid falls into a pool.
+- [teapot_floor.toml](teapot_floor.toml): a teapot of fluid falls on a table and runs off.
+- [teapot_pour.toml](teapot_pour.toml): fluid is poured over a teapot of stone.
 - [benchmark_dam.toml](benchmark_dam.toml): a column of 32^3 particles collapses, to compare engines; `_20`, `_25`, `_40` and
   `_50` for as many particles along an edge.
 
@@ -23,7 +25,7 @@ Every key may be left out unless it is marked required. Quantities are in SI uni
 `"auto"` is allowed, the engine finds the value from the rest of the scene. Paths of meshes are relative to the scene's folder.
 
 `--set key=value` changes any key for one run, with the dotted name of the tables below and a TOML value:
-`--set physics.viscosity=0.1`, `--set domain.max=[1,2,1]`, `--set kernel=wendland`. Fluids count from 0:
+`--set physics.viscosity=0.1`, `--set domain.max=[1,2,1]`, `--set kernel=wendland`. Fluids and colliders count from 0:
 `--set fluid.0.velocity=[0,1,0]`. Paths of meshes are then relative to the folder in which the command runs.
 
 This page is generated from the table of keys that also reads and checks scenes (engine/scene/key_table.cpp).
@@ -56,24 +58,36 @@ std::string_view table_of(std::string_view name)
 }
 
 /// A body of the shape that has this key, everything else at its default.
-FluidBody default_body(const FluidKey& key)
+template <class Body>
+Body default_body(std::span<const Key<Body>> keys, const Key<Body>& key)
 {
-    FluidBody body;
+    Body body;
     if (!key.shape.empty()) {
-        fluid_keys().front().set(body, SceneValue{std::string(key.shape)});
+        keys.front().set(body, SceneValue{std::string(key.shape)});
     }
     return body;
 }
 
-std::string fluid_rows(std::string_view shape)
+template <class Body>
+std::string body_rows(std::span<const Key<Body>> keys, std::string_view shape)
 {
     std::string text{HEADER};
-    for (const FluidKey& key : fluid_keys()) {
+    for (const Key<Body>& key : keys) {
         if (key.shape == shape) {
-            text += row(key, default_body(key));
+            text += row(key, default_body(keys, key));
         }
     }
     return text;
+}
+
+std::string_view about(std::string_view list)
+{
+    return list == "fluid"
+               ? "Once for each body of fluid, at least one. Where fluids overlap, the first one in the file "
+                 "keeps its place. Here the keys of every fluid; then those of its shape."
+               : "Once for each solid that stands in the fluid's way, if any. What of it lies outside the "
+                 "domain is cut off. A block that is flat along one axis is a plate. Here the keys of every "
+                 "collider; then those of its shape.";
 }
 
 } // namespace
@@ -90,13 +104,12 @@ std::string scene_reference_markdown()
         }
         text += row(key, defaults);
     }
-    text +=
-        "\n## [[fluid]]\n\nOnce for each body of fluid, at least one. Fluids must not overlap. Here the keys of every "
-        "fluid; then those of its shape.\n";
-    text += fluid_rows("");
-    for (const std::string_view shape : fluid_keys().front().rule.choices) {
-        text += fmt::format("\n### shape = \"{}\"\n{}", shape, fluid_rows(shape));
-    }
+    for_each_body_list(defaults, [&](std::string_view list, const auto&, const auto& keys) {
+        text += fmt::format("\n## [[{}]]\n\n{}\n", list, about(list)) + body_rows(keys, "");
+        for (const std::string_view shape : keys.front().rule.choices) {
+            text += fmt::format("\n### shape = \"{}\"\n{}", shape, body_rows(keys, shape));
+        }
+    });
     return text;
 }
 

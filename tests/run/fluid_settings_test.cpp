@@ -222,6 +222,18 @@ TEST(FluidSettings, RefusesMoreStepsThanCanBeCounted)
               "fewer frames or a larger time.dt");
 }
 
+TEST(FluidSettings, CollidersDoNotFallButSlowTheStepByTheirFriction)
+{
+    Scene scene = falling_block();
+    const double speed = expected_speed(scene, make_particles(scene, 1'000'000));
+    const double bound = time_step_bounds(scene, 10.0, 1.0).viscosity;
+    scene.colliders.push_back({.shape = SphereShape{scene.domain.max - 0.2f, 0.1f}}); // higher than all fluid
+    EXPECT_EQ(expected_speed(scene, make_particles(scene, 1'000'000)), speed);
+    EXPECT_EQ(time_step_bounds(scene, 10.0, 1.0).viscosity, bound);
+    scene.colliders[0].friction = 2.0f * scene.physics.viscosity;
+    EXPECT_NEAR(time_step_bounds(scene, 10.0, 1.0).viscosity, 0.5 * bound, 1e-6 * bound);
+}
+
 TEST(FluidSettings, MapsTheScene)
 {
     Scene scene = falling_block();
@@ -234,7 +246,11 @@ TEST(FluidSettings, MapsTheScene)
     scene.fluids[0].rest_density = 800.0f;
     FluidBody second = scene.fluids[0];
     second.rest_density = 1200.0f;
+    auto& beside = std::get<BlockShape>(second.shape);
+    beside.min.x = std::get<BlockShape>(scene.fluids[0].shape).max.x;
+    beside.max.x = beside.min.x + 0.2f;
     scene.fluids.push_back(second);
+    scene.colliders.push_back({.shape = SphereShape{{0.0f, 0.2f, 0.0f}, 0.1f}, .friction = 3.0f});
     const sim::SimulationSettings settings = settings_of(scene).simulation;
     EXPECT_EQ(settings.options.kernel, shared::KERNEL_WENDLAND);
     EXPECT_TRUE(settings.options.tension);
@@ -246,6 +262,9 @@ TEST(FluidSettings, MapsTheScene)
     EXPECT_EQ(settings.params.domain_max, scene.domain.max);
     EXPECT_EQ(settings.params.rest_density[0], 800.0f);
     EXPECT_EQ(settings.params.rest_density[1], 1200.0f);
+    EXPECT_EQ(settings.params.friction[1], 0.0f);
+    EXPECT_EQ(settings.params.friction[2], 3.0f);
+    EXPECT_EQ(settings.params.spacing, scene.particles.spacing);
     // No particle may cross more than the CFL share of its support in a step.
     EXPECT_NEAR(settings.params.speed_limit * settings.params.dt, 0.4f * 0.15f, 1e-5f);
 }

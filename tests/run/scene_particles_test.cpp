@@ -7,6 +7,11 @@
 #include <gtest/gtest.h>
 
 #include "core/error.h"
+#include "geometry/relaxation.h"
+#include "reference/cells.h"
+#include "reference/density.h"
+#include "run/fluid_settings.h"
+#include "run/placed_mesh.h"
 #include "support/scratch_folder.h"
 
 namespace meltpoint {
@@ -64,6 +69,68 @@ TEST(SceneParticles, ABlockHasItsMassAndItsLattice)
         ASSERT_EQ(shared::particle_state(particles.attributes[i]), shared::STATE_FLUID);
         ASSERT_EQ(particles.velocity[i], glm::vec3(0.0f));
     }
+}
+
+TEST(SceneParticles, BlueNoiseStartsEven)
+{
+    for (const BodyShape& shape :
+         {BodyShape{BlockShape{{-0.5f, 0.0f, -0.5f}, {0.5f, 0.8f, 0.3f}}},
+          BodyShape{SphereShape{{0.1f, 0.9f, 0.0f}, 0.55f}},
+          BodyShape{MeshShape{.mesh = "builtin:torus", .size = 1.8f, .position = {0, 1, 0}}}}) {
+        FluidBody body;
+        body.shape = shape;
+        body.lattice = FluidLattice::BlueNoise;
+        body.rest_density = 700.0f;
+        const ParticleSet particles = make_particles(scene_of(body), no_limit);
+        const std::unique_ptr<Solid> solid = placed_solid(shape);
+        const RelaxationSettings relaxation{.support_ratio = 2.0, .mirrors = Aabb{{-1, 0, -1}, {1, 2, 1}}};
+        EXPECT_EQ(particles.size(), static_cast<std::size_t>(std::lround(solid->volume() / 1e-3)));
+        EXPECT_NEAR(total_mass(particles), 700.0 * solid->volume(), 0.01);
+        EXPECT_LE(evenness_of(particles.position, *solid, relaxation).density_spread, 0.01);
+        for (const glm::vec3& x : particles.position) {
+            ASSERT_TRUE(solid->contains(glm::dvec3(x)));
+        }
+    }
+}
+
+// As the engine itself sees it, at walls and at edges too: the kernel's sum over all particles and their images.
+TEST(SceneParticles, BlueNoiseBetweenWallsStartsAtRest)
+{
+    for (const SphKernel kernel : {SphKernel::Wendland, SphKernel::Paper}) {
+        for (const float support_ratio : {2.0f, 2.6f}) {
+            Scene scene = scene_of(block(glm::vec3(0.0f), glm::vec3(1.4f)));
+            scene.domain.min = glm::vec3(0.0f);
+            scene.domain.max = glm::vec3(1.4f);
+            scene.fluids[0].lattice = FluidLattice::BlueNoise;
+            scene.kernel = kernel;
+            scene.particles.support_ratio = support_ratio;
+            const ParticleSet particles = make_particles(scene, no_limit);
+            const sim::SimulationSettings settings = fluid_settings(scene, particles).simulation;
+            reference::State state = reference::from_particle_set(particles);
+            reference::update_density({settings.options.kernel, settings.params}, state,
+                                      reference::find_neighbors(settings.params, state.position));
+            double sum = 0.0;
+            double squares = 0.0;
+            for (const double density : state.density) {
+                sum += density;
+                squares += density * density;
+            }
+            const double mean = sum / static_cast<double>(state.size());
+            EXPECT_LE(std::sqrt(squares / static_cast<double>(state.size()) - mean * mean), 0.01 * mean)
+                << settings.options.kernel << " " << support_ratio;
+            EXPECT_NEAR(mean, 1000.0, 30.0) << settings.options.kernel << " " << support_ratio;
+        }
+    }
+}
+
+TEST(SceneParticles, BlueNoiseFollowsTheSeed)
+{
+    Scene scene = block_scene();
+    scene.fluids[0].lattice = FluidLattice::BlueNoise;
+    const std::vector<glm::vec3> first = make_particles(scene, no_limit).position;
+    EXPECT_EQ(make_particles(scene, no_limit).position, first);
+    scene.seed = 2;
+    EXPECT_NE(make_particles(scene, no_limit).position, first);
 }
 
 TEST(SceneParticles, ASphereHasTheMassOfABall)

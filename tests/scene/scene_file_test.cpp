@@ -226,15 +226,64 @@ TEST(SceneFile, NamesMistakesOfShapes)
     EXPECT_NO_THROW(parse("[[fluid]]\nshape='sphere'\ncenter=[0,0.3,0]\nradius=0.3"));
 }
 
+constexpr const char* COLLIDER = "[[collider]]\nshape='block'\nmin=[-1,0.1,-1]\nmax=[1,0.2,1]\n";
+
+TEST(SceneFile, HasColliders)
+{
+    const Scene scene = parse(std::string(BLOCK) + COLLIDER + "friction = 2.5\nsolid = false\nspacing = 0.5\n" +
+                              "[[collider]]\nshape='mesh'\nmesh='cup.obj'\nposition=[0,1,0]\ncolor=[1,0,0]\n");
+    ASSERT_EQ(scene.colliders.size(), 2u);
+    EXPECT_EQ(std::get<BlockShape>(scene.colliders[0].shape).max, glm::vec3(1.0f, 0.2f, 1.0f));
+    EXPECT_EQ(scene.colliders[0].friction, 2.5f);
+    EXPECT_FALSE(scene.colliders[0].solid);
+    EXPECT_EQ(scene.colliders[0].spacing, 0.5f);
+    EXPECT_EQ(std::get<MeshShape>(scene.colliders[1].shape).mesh, "/scenes/cup.obj");
+    EXPECT_TRUE(scene.colliders[1].solid);
+    EXPECT_EQ(scene.colliders[1].color, glm::vec3(1.0f, 0.0f, 0.0f));
+    EXPECT_TRUE(parse(BLOCK).colliders.empty());
+    EXPECT_TRUE(parse(std::string(BLOCK) + COLLIDER, {"collider=[]"}).colliders.empty());
+}
+
+TEST(SceneFile, CollidersMistakesAreNamed)
+{
+    const auto collider_with = [](const std::string& override_text) {
+        return error_of(std::string(BLOCK) + COLLIDER, {override_text});
+    };
+    EXPECT_NE(collider_with("collider.0.frction=1").find("did you mean \"collider.0.friction\"?"), std::string::npos);
+    EXPECT_NE(collider_with("collider.0.spacing=1.1").find("must be a number from 0.25 to 0.75 particle spacings"),
+              std::string::npos);
+    EXPECT_NE(collider_with("collider.0.friction=-1").find("must be a number from 0 to 10000 Pa s"), std::string::npos);
+    EXPECT_NE(collider_with("collider.1.friction=1").find("the scene has 1 collider, counted from 0"),
+              std::string::npos);
+    EXPECT_NE(
+        collider_with("collider.0.radius=1").find("but this collider has shape = \"block\" with the keys min, max"),
+        std::string::npos);
+    EXPECT_NE(collider_with("collider.0.max=[1,0.05,1]").find("(equal in one of them: a plate)"), std::string::npos);
+    EXPECT_NE(collider_with("collider.0.max=[-1,0.1,1]").find("(equal in one of them: a plate)"), std::string::npos);
+    EXPECT_NO_THROW(parse(std::string(BLOCK) + COLLIDER, {"collider.0.max=[1,0.1,1]"}));
+    EXPECT_NE(error_of(std::string(BLOCK) + "[collider]").find("must be an array of tables: [[collider]]"),
+              std::string::npos);
+    EXPECT_NE(error_of(std::string(BLOCK) + "[[collider]]").find("key \"collider.0\" has no \"shape\""),
+              std::string::npos);
+
+    std::string text(BLOCK);
+    for (int i = 0; i < 64; ++i) {
+        text += fmt::format("{}friction = {}\n", COLLIDER, i);
+    }
+    EXPECT_NE(error_of(text).find("key \"collider.63\" makes 65 different materials"), std::string::npos);
+}
+
 TEST(SceneFile, LimitsDistinctFluids)
 {
     std::string text;
     for (int i = 0; i < 65; ++i) {
         text += fmt::format("{}rest_density = {}\n", BLOCK, 1000 + i);
     }
-    EXPECT_EQ(error_of(text),
-              "test.toml:386: key \"fluid.64\" makes 65 different fluids (by rest density and color), but a "
-              "scene has at most 64");
+    EXPECT_EQ(
+        error_of(text),
+        "test.toml:386: key \"fluid.64\" makes 65 different materials (fluids by rest density and color, colliders by "
+        "friction and color), but a "
+        "scene has at most 64");
     EXPECT_NO_THROW(parse(text, {"fluid.64.rest_density=1000"}));
 
     std::string many;
@@ -294,7 +343,7 @@ TEST(SceneFile, OverridesReplaceFluids)
         parse(BLOCK, {"fluid=[{shape='sphere',center=[0,1,0],radius=0.5},{shape='block',min=[0,0,0],max=[1,0.2,1]}]",
                       "fluid.1.rest_density=500"});
     ASSERT_EQ(scene.fluids.size(), 2u);
-    EXPECT_EQ(shape_name(scene.fluids[0]), "sphere");
+    EXPECT_EQ(shape_name(scene.fluids[0].shape), "sphere");
     EXPECT_EQ(scene.fluids[1].rest_density, 500.0f);
     EXPECT_EQ(
         parse(BLOCK, {"fluid.0={shape='mesh',mesh='/a/b.obj',position=[0,1,0]}", "fluid.0.size=0.5"}).fluids.size(),
@@ -451,18 +500,19 @@ Scene random_scene(std::uint64_t seed)
     scene.time.dt = 1e-7f + 1e-8f * static_cast<float>(random.uniform());
     scene.camera.target = scene.camera.eye.value() + glm::vec3(1.5f, 0.0f, 0.0f);
     scene.camera.up = {0.1f, 0.9f, 0.0f};
-    for (const std::string_view shape : fluid_keys().front().rule.choices) {
-        FluidBody body;
-        fluid_keys().front().set(body, {std::string(shape)});
-        randomize(random, fluid_keys(), body, shape);
-        if (auto* block = std::get_if<BlockShape>(&body.shape)) {
-            block->max = block->min + 0.7f;
+    for_each_body_list(scene, [&](std::string_view, auto& bodies, const auto& keys) {
+        for (const std::string_view shape : keys.front().rule.choices) {
+            auto& body = bodies.emplace_back();
+            keys.front().set(body, {std::string(shape)});
+            randomize(random, keys, body, shape);
+            if (auto* block = std::get_if<BlockShape>(&body.shape)) {
+                block->max = block->min + 0.7f;
+            }
+            if (auto* sphere = std::get_if<SphereShape>(&body.shape)) {
+                sphere->radius = 0.1f + static_cast<float>(random.uniform());
+            }
         }
-        if (auto* sphere = std::get_if<SphereShape>(&body.shape)) {
-            sphere->radius = 0.1f + static_cast<float>(random.uniform());
-        }
-        scene.fluids.push_back(body);
-    }
+    });
     return scene;
 }
 
@@ -476,15 +526,18 @@ std::vector<std::string> differences(const Scene& a, const Scene& b)
         }
     }
     EXPECT_EQ(a.fluids.size(), b.fluids.size());
-    for (std::size_t i = 0; i < std::min(a.fluids.size(), b.fluids.size()); ++i) {
-        for (const FluidKey& key : fluid_keys()) {
-            if (key.shape.empty() || key.shape == shape_name(a.fluids[i])) {
-                if (key.get(a.fluids[i]) != key.get(b.fluids[i])) {
-                    names.push_back(fmt::format("fluid.{}.{}", i, key.name));
+    EXPECT_EQ(a.colliders.size(), b.colliders.size());
+    const auto compare_bodies = [&](std::string_view list, const auto& of_a, const auto& of_b, const auto& keys) {
+        for (std::size_t i = 0; i < std::min(of_a.size(), of_b.size()); ++i) {
+            for (const auto& key : keys) {
+                if (belongs_to(key, shape_name(of_a[i].shape)) && key.get(of_a[i]) != key.get(of_b[i])) {
+                    names.push_back(fmt::format("{}.{}.{}", list, i, key.name));
                 }
             }
         }
-    }
+    };
+    compare_bodies("fluid", a.fluids, b.fluids, fluid_keys());
+    compare_bodies("collider", a.colliders, b.colliders, collider_keys());
     return names;
 }
 
@@ -567,6 +620,7 @@ TEST(KeyTable, LimitsAreInclusiveAndKept)
 {
     expect_limits(scene_keys());
     expect_limits(fluid_keys());
+    expect_limits(collider_keys());
 }
 
 TEST(SceneCheck, WorksOnScenesBuiltInCode)
@@ -610,7 +664,7 @@ TEST(BuiltinScenes, AreTheFilesOfTheFolder)
               "no built-in scene is called \"teapot_drip\"; did you mean \"teapot_drop\"?");
     EXPECT_NE(complaint_of([] { builtin_scene("x"); })
                   .find("there are benchmark_dam, benchmark_dam_20, benchmark_dam_25, benchmark_dam_40, "
-                        "benchmark_dam_50, dam_break, drop, teapot_drop"),
+                        "benchmark_dam_50, dam_break, drop, teapot_drop, teapot_floor, teapot_pour"),
               std::string::npos);
 }
 
