@@ -21,6 +21,8 @@ required_packages=(
     libspdlog-dev              # messages
     libtbb-dev                 # parallel loops on the CPU
     libassimp-dev              # mesh files
+    libeigen3-dev              # planes through points
+    libnanoflann-dev           # nearest neighbors
     libtomlplusplus-dev        # scene files
     libpng-dev                 # frames
     libcli11-dev               # command line

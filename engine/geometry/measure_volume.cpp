@@ -43,10 +43,9 @@ std::vector<double> row_counts(const Solid& solid, CellGrid grid)
 
 } // namespace
 
-double measure_volume(const Solid& solid)
+double measure_volume(const Solid& solid, const VolumeAccuracy& accuracy)
 {
-    constexpr std::array<double, 4> cell_counts = {320e3, 0x1p20, 0x1p22, 0x1p24};
-    constexpr double wanted_error = 3e-4;
+    constexpr std::array<double, 5> cell_counts = {40e3, 320e3, 0x1p20, 0x1p22, 0x1p24};
     const Aabb box = solid.bounds();
     const glm::dvec3 size(box.size());
     const double box_volume = size.x * size.y * size.z;
@@ -56,6 +55,9 @@ double measure_volume(const Solid& solid)
     double inside = 0.0; // share of the box
     std::uint64_t seed = 0;
     for (const double cells : cell_counts) {
+        if (cells < accuracy.first_cells || cells > accuracy.most_cells) {
+            continue;
+        }
         CellGrid grid = cells_of_box(box, cells);
         grid.jitter_seed = ++seed;
         const std::vector<double> one = row_counts(solid, grid);
@@ -69,7 +71,7 @@ double measure_volume(const Solid& solid)
         }
         // Two samples x, y of a row have a sum whose variance (x - y)^2 estimates; rows are independent.
         inside = points / (4.0 * static_cast<double>(grid.size()));
-        if (std::sqrt(squares) <= wanted_error * points) { // also where nothing is inside
+        if (std::sqrt(squares) <= accuracy.error * points) { // also where nothing is inside
             break;
         }
     }

@@ -139,8 +139,7 @@ double MeshSolid::volume() const
 
 bool MeshSolid::contains(const glm::dvec3& point) const
 {
-    const double w = mesh_.at(point, coarse);
-    return std::abs(w - 0.5) > coarse_error ? w >= 0.5 : mesh_.at(point) >= 0.5;
+    return mesh_.is_inside(point);
 }
 
 bool MeshSolid::contains(const glm::dvec3& point, int closed) const

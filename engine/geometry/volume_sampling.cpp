@@ -30,7 +30,7 @@ VolumeSamples sample_volume(const Solid& solid, const VolumeRequest& request)
     }
     const double volume = solid.volume();
     if (!(volume > 0.0)) {
-        throw input_error("the shape to fill encloses no volume: it is flat, or its triangles face inward");
+        throw input_error("the shape to fill encloses no volume: it is flat, or its triangles or normals face inward");
     }
     const std::size_t count =
         asked != nullptr ? static_cast<std::size_t>(std::max(std::round(volume / std::pow(asked->meters, 3)), 1.0))

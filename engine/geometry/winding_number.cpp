@@ -6,11 +6,14 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <utility>
 
 namespace meltpoint {
 
 namespace {
 
+constexpr double coarse = 1.25; // accuracy where little depends on it
+constexpr double coarse_error = 0.1;
 constexpr std::uint32_t leaf_size = 4;
 constexpr int stack_size = 64; // median splits: a tree over 2^32 triangles is 32 deep
 
@@ -34,6 +37,16 @@ std::array<glm::dvec3, 3> corners_of(const TriangleMesh& mesh, const glm::uvec3&
     return {mesh.positions[triangle.x], mesh.positions[triangle.y], mesh.positions[triangle.z]};
 }
 
+std::vector<std::array<glm::dvec3, 3>> triangles_of(const TriangleMesh& mesh)
+{
+    std::vector<std::array<glm::dvec3, 3>> triangles;
+    triangles.reserve(mesh.triangles.size());
+    for (const glm::uvec3& triangle : mesh.triangles) {
+        triangles.push_back(corners_of(mesh, triangle));
+    }
+    return triangles;
+}
+
 glm::dvec3 centroid(const std::array<glm::dvec3, 3>& triangle)
 {
     return (triangle[0] + triangle[1] + triangle[2]) / 3.0;
@@ -41,12 +54,10 @@ glm::dvec3 centroid(const std::array<glm::dvec3, 3>& triangle)
 
 } // namespace
 
-WindingNumber::WindingNumber(const TriangleMesh& mesh)
+WindingNumber::WindingNumber(const TriangleMesh& mesh) : WindingNumber(triangles_of(mesh)) {}
+
+WindingNumber::WindingNumber(std::vector<Triangle> triangles) : triangles_(std::move(triangles))
 {
-    triangles_.reserve(mesh.triangles.size());
-    for (const glm::uvec3& triangle : mesh.triangles) {
-        triangles_.push_back(corners_of(mesh, triangle));
-    }
     if (!triangles_.empty()) {
         build(0, static_cast<std::uint32_t>(triangles_.size()));
     }
@@ -175,6 +186,12 @@ double WindingNumber::at(const glm::dvec3& point, double accuracy) const
         }
     }
     return sum / (4.0 * std::numbers::pi);
+}
+
+bool WindingNumber::is_inside(const glm::dvec3& point) const
+{
+    const double w = at(point, coarse);
+    return std::abs(w - 0.5) > coarse_error ? w >= 0.5 : at(point) >= 0.5;
 }
 
 bool WindingNumber::may_touch_box(const glm::dvec3& low, const glm::dvec3& high) const
