@@ -372,7 +372,7 @@ mutation "yardstick: rows end one cell too early" \
 # --- sampling and drawing -----------------------------------------------------------------------------------------------
 
 mutation "surface samples: the half beyond the triangle is not folded back" \
-    engine/geometry/surface_candidates.cpp \
+    engine/geometry/mesh_candidates.cpp \
     'u + v > 1.0' \
     'u + v > 2.0' \
     unit_tests 'SurfaceSampling.PointsAreUniformOnTheirTriangles'
@@ -416,6 +416,56 @@ mutation "relaxation: particles may leave" \
     '!is_inside()) { // then' \
     'false) { // then' \
     unit_tests 'Relaxation.Nobody*'
+mutation "clouds: pieces are not turned outward" \
+    engine/geometry/normal_orientation.cpp \
+    'return flux < 0.0;' \
+    'return false;' \
+    unit_tests 'CloudSurface.EveryPieceLooksOutwardByItself'
+mutation "clouds: normals take no sign from their neighbors" \
+    engine/geometry/normal_orientation.cpp \
+    'normal = -normal;' \
+    '' \
+    unit_tests 'CloudSurface.NormalsOfSmoothShapes*'
+mutation "clouds: planes by the largest variance" \
+    engine/geometry/local_planes.cpp \
+    'eigenvectors().col(0)' \
+    'eigenvectors().col(1)' \
+    unit_tests 'CloudSurface.NormalsOfSmoothShapes*'
+mutation "clouds: rows of a scanner keep twenty neighbors" \
+    engine/geometry/local_planes.cpp \
+    'most_neighbors = 80' \
+    'most_neighbors = 20' \
+    unit_tests 'CloudSurface.RowsOfAScanner*'
+mutation "clouds: cells do not end at the rim" \
+    engine/geometry/cloud_cells.cpp \
+    'clip_rim(polygon, scratch, directions, spacing);' \
+    '' \
+    unit_tests 'CloudSurface.APlaneLooksUp*'
+mutation "clouds: cells end at their neighbors, not halfway" \
+    engine/geometry/cloud_cells.cpp \
+    '0.5 * square' \
+    'square' \
+    unit_tests 'CloudSurface.CellsHaveTheArea*'
+mutation "clouds: points in one place are all kept" \
+    engine/geometry/cloud_surface.cpp \
+    'std::vector<std::uint8_t> kept(cloud.size(), 0);' \
+    'std::vector<std::uint8_t> kept(cloud.size(), 1);' \
+    unit_tests 'CloudSurface.PointsInOnePlaceAreOne'
+mutation "clouds: all points count with the same area" \
+    engine/geometry/cloud_solid.cpp \
+    'std::sqrt(area * 4.0' \
+    'std::sqrt(surface.area / double(surface.cloud.size()) * 4.0' \
+    unit_tests 'CloudSolid.AnUnevenCloud*'
+mutation "clouds: far cells are never inside" \
+    engine/geometry/cloud_solid.cpp \
+    'threshold > 1 :' \
+    'threshold > 2 :' \
+    unit_tests 'CloudSolid.TheMaskAgrees*'
+mutation "cloud samples: the first corner of a cell gets all" \
+    engine/geometry/cloud_candidates.cpp \
+    'left < triangle' \
+    'true' \
+    unit_tests 'CloudSampling.PointsFillTheirCells'
 mutation "splats: discs are projected along the view axis instead of intersected" \
     shaders/include/splat.glsl \
     'float t = dot(center - ray.origin, normal) / dot(ray.direction, normal);' \

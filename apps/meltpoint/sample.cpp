@@ -10,6 +10,7 @@
 #include <unistd.h>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <nlohmann/json.hpp>
 
 #include "commands.h"
@@ -44,7 +45,7 @@ std::vector<std::string> names_of(const std::map<std::string, Value>& values)
 
 struct SampleOptions {
     SampleRequest request;
-    std::string method = "random";
+    std::optional<std::string> method;
     std::string lattice = "cubic";
     std::filesystem::path out;
     std::optional<std::size_t> count;
@@ -63,6 +64,36 @@ void check_output(const SampleOptions& options)
     }
 }
 
+/// What was done to a cloud that its file does not say; empty where nothing was.
+std::string note_of(const CloudFacts& facts)
+{
+    std::vector<std::string> notes;
+    if (facts.estimated > 0) {
+        const std::string outside = facts.pieces == 0   ? "oriented as the given ones"
+                                    : facts.pieces == 1 ? "oriented outward"
+                                                        : fmt::format("oriented outward in {} pieces", facts.pieces);
+        notes.push_back(fmt::format("{} of {} normals were missing: they are estimated from nearest neighbors and {}",
+                                    facts.estimated, facts.points, outside));
+    }
+    if (facts.unknown > 0) {
+        notes.push_back(fmt::format("{} points lie on lines and stay without a normal", facts.unknown));
+    }
+    if (facts.duplicates > 0) {
+        notes.push_back(fmt::format("{} points in the place of another are left out", facts.duplicates));
+    }
+    return fmt::format("{}", fmt::join(notes, "; "));
+}
+
+nlohmann::ordered_json json_of(const CloudFacts& facts)
+{
+    return {{"points", facts.points},
+            {"duplicates", facts.duplicates},
+            {"normals_given", facts.points - facts.estimated - facts.unknown},
+            {"normals_estimated", facts.estimated},
+            {"normals_unknown", facts.unknown},
+            {"pieces_oriented", facts.pieces}};
+}
+
 void print_json(const SampledPoints& points, bool volume)
 {
     nlohmann::ordered_json seconds;
@@ -70,16 +101,19 @@ void print_json(const SampledPoints& points, bool volume)
         seconds[stage] = time;
     }
     const std::size_t count = points.cloud.size();
-    const nlohmann::ordered_json document{{"triangles", points.facts.triangles},
-                                          {"boundary_edges", points.facts.boundary_edges},
-                                          {"nonmanifold_edges", points.facts.nonmanifold_edges},
-                                          {"area", points.facts.area},
-                                          {"volume", points.volume.value_or(0.0)},
-                                          {"surface_points", volume ? 0 : count},
-                                          {"interior_points", volume ? count : 0},
-                                          {"spacing", points.spacing},
-                                          {"particle_mass", points.particle_mass.value_or(0.0)},
-                                          {"seconds", seconds}};
+    nlohmann::ordered_json document{{"triangles", points.facts.triangles},
+                                    {"boundary_edges", points.facts.boundary_edges},
+                                    {"nonmanifold_edges", points.facts.nonmanifold_edges},
+                                    {"area", points.facts.area},
+                                    {"volume", points.volume.value_or(0.0)},
+                                    {"surface_points", volume ? 0 : count},
+                                    {"interior_points", volume ? count : 0},
+                                    {"spacing", points.spacing},
+                                    {"particle_mass", points.particle_mass.value_or(0.0)},
+                                    {"seconds", seconds}};
+    if (points.cloud_facts) {
+        document["cloud"] = json_of(*points.cloud_facts);
+    }
     fmt::print("{}\n", document.dump(2));
 }
 
@@ -105,19 +139,27 @@ int sample(SampleOptions options, bool quiet)
     } else if (options.spacing) {
         request.amount = PointSpacing{*options.spacing};
     }
-    request.method = method_names.at(options.method);
+    if (options.method) {
+        request.method = method_names.at(*options.method);
+    }
     request.lattice = lattice_names.at(options.lattice);
     request.measure = options.json;
     constexpr std::size_t stages = 4;
     Progress progress("stages", stages, quiet || isatty(STDERR_FILENO) == 0);
     request.on_stage = [&progress](std::string_view stage) {
-        progress.advance(stage);
+        if (stage != "normals") { // which only clouds have
+            progress.advance(stage);
+        }
     };
 
     SampledPoints points;
     {
         const InterruptGuard at_once(OnInterrupt::Exit); // nothing is written yet
         points = sample_points(request);
+    }
+    const std::string note = points.cloud_facts ? note_of(*points.cloud_facts) : "";
+    if (!note.empty()) {
+        log_info(fmt::format("{}: {}", request.source, note));
     }
     const InterruptGuard interrupt(OnInterrupt::Stop);
     make_folder(options.out.parent_path());
@@ -157,8 +199,8 @@ void add_sample(CLI::App& app, const GlobalOptions& global, int& exit_code)
     CLI::Option* count =
         command
             ->add_option("--count", options->count,
-                         "Number of points, exactly, or, with --volume, within 2 % [100000; of a file of "
-                         "points: all]")
+                         "Number of points, exactly, or, with --volume, within 2 % [100000; of the surface of "
+                         "a cloud: its own points]")
             ->type_name("N")
             ->check(CLI::Range(std::size_t{1}, std::size_t{1} << 28));
     command->add_option("--spacing", options->spacing, "Distance between points in m, instead of their number")
@@ -166,7 +208,10 @@ void add_sample(CLI::App& app, const GlobalOptions& global, int& exit_code)
         ->check(CLI::PositiveNumber)
         ->excludes(count);
     CLI::Option* volume = command->add_flag("--volume", request.volume, "Points inside, which fill the shape");
-    command->add_option("--method", options->method, "How points lie on the surface [random]")
+    command
+        ->add_option("--method", options->method,
+                     "How points lie on the surface [random]. Of a cloud too they are new points, on the "
+                     "planes through its own")
         ->check(CLI::IsMember(names_of(method_names)))
         ->excludes(volume);
     command->add_option("--lattice", options->lattice, "How points lie inside [cubic]")

@@ -1,83 +1,14 @@
 #include "geometry/surface_candidates.h"
 
 #include "core/parallel_for.h"
-#include "core/random.h"
 
 namespace meltpoint {
-
-namespace {
-
-std::vector<double> areas_of(const TriangleMesh& mesh)
-{
-    std::vector<double> areas(mesh.triangles.size());
-    parallel_for(areas.size(), [&](std::size_t i) { areas[i] = triangle_area(mesh, i); });
-    return areas;
-}
-
-glm::vec3 normal_at(const TriangleMesh& mesh, std::uint32_t triangle, double u, double v)
-{
-    if (!mesh.normals.empty()) {
-        const glm::uvec3& corners = mesh.triangles[triangle];
-        const glm::dvec3 a(mesh.normals[corners.x]);
-        const glm::dvec3 b(mesh.normals[corners.y]);
-        const glm::dvec3 c(mesh.normals[corners.z]);
-        const glm::dvec3 normal = (1.0 - u - v) * a + u * b + v * c;
-        const bool all_there = glm::dot(a, a) > 0.0 && glm::dot(b, b) > 0.0 && glm::dot(c, c) > 0.0;
-        if (all_there && glm::length(normal) > 0.1) {
-            return glm::vec3(glm::normalize(normal));
-        }
-    }
-    return glm::vec3(glm::normalize(area_vector(mesh, triangle)));
-}
-
-PointCloud empty_cloud(std::size_t count)
-{
-    PointCloud cloud;
-    cloud.positions.resize(count);
-    cloud.normals.resize(count);
-    cloud.triangle.resize(count);
-    cloud.barycentric.resize(count);
-    return cloud;
-}
-
-} // namespace
-
-SurfaceCandidates::SurfaceCandidates(const TriangleMesh& mesh, std::uint64_t seed)
-    : mesh_(mesh), triangles_by_area_(areas_of(mesh)), seed_(seed)
-{
-}
-
-SurfaceCandidates::Candidate SurfaceCandidates::operator[](std::size_t i) const
-{
-    Random random(seed_, i);
-    const std::uint32_t triangle = triangles_by_area_.draw(random);
-    double u = random.uniform();
-    double v = random.uniform();
-    if (u + v > 1.0) {
-        u = 1.0 - u;
-        v = 1.0 - v;
-    }
-    const glm::uvec3& corners = mesh_.triangles[triangle];
-    const glm::dvec3 a(mesh_.positions[corners.x]);
-    const glm::dvec3 b(mesh_.positions[corners.y]);
-    const glm::dvec3 c(mesh_.positions[corners.z]);
-    return {glm::vec3(a + u * (b - a) + v * (c - a)), triangle, glm::vec2(u, v)};
-}
 
 std::vector<glm::vec3> SurfaceCandidates::positions(std::size_t count) const
 {
     std::vector<glm::vec3> positions(count);
     parallel_for(count, [&](std::size_t i) { positions[i] = (*this)[i].position; });
     return positions;
-}
-
-void SurfaceCandidates::put(PointCloud& cloud, std::size_t place, std::size_t number) const
-{
-    const Candidate candidate = (*this)[number];
-    cloud.positions[place] = candidate.position;
-    cloud.normals[place] = normal_at(mesh_, candidate.triangle, candidate.barycentric.x, candidate.barycentric.y);
-    cloud.triangle[place] = candidate.triangle;
-    cloud.barycentric[place] = candidate.barycentric;
 }
 
 PointCloud SurfaceCandidates::cloud(std::span<const std::uint32_t> chosen) const

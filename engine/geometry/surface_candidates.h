@@ -7,43 +7,41 @@
 
 #include <glm/glm.hpp>
 
-#include "geometry/alias_table.h"
 #include "geometry/point_cloud.h"
-#include "geometry/triangle_mesh.h"
 
 namespace meltpoint {
 
-/// An endless sequence of independent points, uniformly distributed over a surface: triangles by area from an alias
-/// table, then uniform on the triangle by folding the unit square (Osada, Funkhouser, Chazelle & Dobkin 2002). Point i
-/// depends on the seed and i alone. The methods of sample_surface choose from it by number.
+/// An endless sequence of independent points, uniformly distributed over a surface. Point i depends on the seed and i
+/// alone. The methods of sample_surface choose from it by number. Safe to use from several threads.
 class SurfaceCandidates {
 public:
-    struct Candidate {
+    struct Placed {
         glm::vec3 position;
-        std::uint32_t triangle;
-        glm::vec2 barycentric; ///< as in PointCloud
+        glm::vec3 side; ///< unit: the normal of the piece of surface that it lies on
     };
 
-    /// The mesh must be valid and outlive this.
-    SurfaceCandidates(const TriangleMesh& mesh, std::uint64_t seed);
+    SurfaceCandidates() = default;
+    SurfaceCandidates(const SurfaceCandidates&) = delete;
+    SurfaceCandidates& operator=(const SurfaceCandidates&) = delete;
+    virtual ~SurfaceCandidates() = default;
 
-    [[nodiscard]] Candidate operator[](std::size_t i) const;
+    [[nodiscard]] virtual Placed operator[](std::size_t i) const = 0;
 
     /// The first `count` positions.
     [[nodiscard]] std::vector<glm::vec3> positions(std::size_t count) const;
 
-    /// The candidates of the given numbers, with normals.
+    /// The candidates of the given numbers, with all their attributes.
     [[nodiscard]] PointCloud cloud(std::span<const std::uint32_t> chosen) const;
 
-    /// The first `count` candidates, with normals.
+    /// The first `count` candidates, with all their attributes.
     [[nodiscard]] PointCloud cloud(std::size_t count) const;
 
 private:
-    void put(PointCloud& cloud, std::size_t place, std::size_t number) const;
+    /// Room for so many, in all attributes that candidates have.
+    [[nodiscard]] virtual PointCloud empty_cloud(std::size_t count) const = 0;
 
-    const TriangleMesh& mesh_;
-    AliasTable triangles_by_area_;
-    std::uint64_t seed_;
+    /// Writes candidate `number` to a place of such a cloud.
+    virtual void put(PointCloud& cloud, std::size_t place, std::size_t number) const = 0;
 };
 
 } // namespace meltpoint

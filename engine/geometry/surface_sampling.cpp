@@ -6,9 +6,10 @@
 
 #include "core/error.h"
 #include "core/parallel_for.h"
+#include "geometry/cloud_candidates.h"
+#include "geometry/mesh_candidates.h"
 #include "geometry/sample_elimination.h"
 #include "geometry/stratified_sampling.h"
-#include "geometry/surface_candidates.h"
 
 namespace meltpoint {
 
@@ -40,30 +41,26 @@ std::size_t wanted_count(const SurfaceRequest& request, double area)
     return static_cast<std::size_t>(count);
 }
 
-std::vector<std::uint32_t> choose_blue_noise(const TriangleMesh& mesh, const SurfaceCandidates& candidates,
-                                             std::size_t count, double area)
+std::vector<std::uint32_t> choose_blue_noise(const SurfaceCandidates& candidates, std::size_t count, double area)
 {
     std::vector<glm::vec3> points(elimination_candidates(count));
     std::vector<glm::vec3> normals(points.size());
     parallel_for(points.size(), [&](std::size_t i) {
-        const SurfaceCandidates::Candidate candidate = candidates[i];
+        const SurfaceCandidates::Placed candidate = candidates[i];
         points[i] = candidate.position;
-        normals[i] = glm::vec3(glm::normalize(area_vector(mesh, candidate.triangle)));
+        normals[i] = candidate.side;
     });
     // 2 r_max: points this far apart on a plane are the corners of equilateral triangles.
     const double spacing = 2.0 * std::sqrt(area / (2.0 * std::numbers::sqrt3 * static_cast<double>(count)));
     return eliminate_samples({.points = points, .normals = normals, .keep = count, .spacing = spacing});
 }
 
-} // namespace
-
-SurfaceSamples sample_surface(const TriangleMesh& mesh, const SurfaceRequest& request)
+SurfaceSamples sample(const SurfaceCandidates& candidates, double area, const SurfaceRequest& request)
 {
     SurfaceSamples samples;
-    samples.area = surface_area(mesh);
-    const std::size_t count = wanted_count(request, samples.area);
-    samples.spacing = count == 0 ? 0.0 : std::sqrt(samples.area / static_cast<double>(count));
-    const SurfaceCandidates candidates(mesh, request.seed);
+    samples.area = area;
+    const std::size_t count = wanted_count(request, area);
+    samples.spacing = count == 0 ? 0.0 : std::sqrt(area / static_cast<double>(count));
     switch (request.method) {
     case SurfaceMethod::Random:
         samples.cloud = candidates.cloud(count);
@@ -73,10 +70,22 @@ SurfaceSamples sample_surface(const TriangleMesh& mesh, const SurfaceRequest& re
             choose_stratified(candidates.positions(candidates_a_stratum * count), candidates_a_stratum, request.seed));
         break;
     case SurfaceMethod::BlueNoise:
-        samples.cloud = candidates.cloud(choose_blue_noise(mesh, candidates, count, samples.area));
+        samples.cloud = candidates.cloud(choose_blue_noise(candidates, count, area));
         break;
     }
     return samples;
+}
+
+} // namespace
+
+SurfaceSamples sample_surface(const TriangleMesh& mesh, const SurfaceRequest& request)
+{
+    return sample(MeshCandidates(mesh, request.seed), surface_area(mesh), request);
+}
+
+SurfaceSamples sample_surface(const CloudSurface& surface, const SurfaceRequest& request)
+{
+    return sample(CloudCandidates(surface, request.seed), surface.area, request);
 }
 
 } // namespace meltpoint

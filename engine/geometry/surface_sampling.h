@@ -3,6 +3,7 @@
 #include <cstddef>
 #include <cstdint>
 
+#include "geometry/cloud_surface.h"
 #include "geometry/point_cloud.h"
 #include "geometry/sample_amount.h"
 #include "geometry/triangle_mesh.h"
@@ -23,7 +24,7 @@ struct SurfaceRequest {
 
 struct SurfaceSamples {
     PointCloud cloud;
-    double area = 0.0;    ///< A of the mesh, m^2
+    double area = 0.0;    ///< A of the surface, m^2
     double spacing = 0.0; ///< sqrt(A / N), m
 };
 
@@ -33,5 +34,9 @@ struct SurfaceSamples {
 /// any number of threads. A spacing that is not positive, and more than 2^28
 /// random or 2^24 other points, are Input errors.
 [[nodiscard]] SurfaceSamples sample_surface(const TriangleMesh& mesh, const SurfaceRequest& request);
+
+/// The same of a cloud of points: new points, as many as asked, on the tangent planes of those of the cloud, whose
+/// normals and colors they carry.
+[[nodiscard]] SurfaceSamples sample_surface(const CloudSurface& surface, const SurfaceRequest& request);
 
 } // namespace meltpoint

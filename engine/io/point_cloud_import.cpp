@@ -116,9 +116,6 @@ void check(const PointCloud& cloud, const std::string& name)
         if (!is_finite(p)) {
             throw input_error("{}: point {} is not finite ({}, {}, {})", name, i, p.x, p.y, p.z);
         }
-        if (!cloud.normals.empty() && !is_finite(cloud.normals[i])) {
-            throw input_error("{}: the normal of point {} is not finite", name, i);
-        }
         box.extend(p);
     }
     const glm::vec3 reach = glm::max(glm::abs(box.min), glm::abs(box.max));
@@ -132,7 +129,7 @@ void normalize(std::vector<glm::vec3>& normals)
 {
     bool any = false;
     for (glm::vec3& normal : normals) {
-        const double length = glm::length(glm::dvec3(normal));
+        const double length = is_finite(normal) ? glm::length(glm::dvec3(normal)) : 0.0;
         any = any || length > 0.0;
         normal = length > 0.0 ? glm::vec3(glm::dvec3(normal) / length) : glm::vec3(0.0f);
     }
@@ -143,13 +140,10 @@ void normalize(std::vector<glm::vec3>& normals)
 
 } // namespace
 
-bool holds_points(const std::filesystem::path& path)
+bool holds_points(std::span<const std::uint8_t> bytes, const std::filesystem::path& path)
 {
     const std::string extension = lower_extension(path);
-    if (extension != "ply") {
-        return extension == "xyz";
-    }
-    return !has_faces(read_ply_header(read_input_file(path), path.string()));
+    return extension == "xyz" || (extension == "ply" && !has_faces(read_ply_header(bytes, path.string())));
 }
 
 PointCloud parse_point_cloud(std::span<const std::uint8_t> bytes, const std::filesystem::path& path)

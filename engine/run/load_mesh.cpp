@@ -7,10 +7,20 @@
 
 namespace meltpoint {
 
+namespace {
+
+constexpr std::string_view builtin = "builtin:";
+
+} // namespace
+
+bool is_builtin(const std::string& name)
+{
+    return name.starts_with(builtin);
+}
+
 TriangleMesh load_mesh(const std::string& name)
 {
-    constexpr std::string_view builtin = "builtin:";
-    return name.starts_with(builtin) ? builtin_mesh(std::string_view(name).substr(builtin.size())) : import_mesh(name);
+    return is_builtin(name) ? builtin_mesh(std::string_view(name).substr(builtin.size())) : import_mesh(name);
 }
 
 } // namespace meltpoint

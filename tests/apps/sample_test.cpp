@@ -16,6 +16,7 @@
 #include "geometry/builtin_meshes.h"
 #include "io/point_cloud_import.h"
 #include "support/cli.h"
+#include "support/clouds.h"
 #include "support/mesh_files.h"
 #include "support/scratch_folder.h"
 
@@ -105,6 +106,146 @@ TEST_F(SampleCli, VolumesHoldTheCountWithinTwoPercent)
         EXPECT_EQ(cloud.size(), points);
         EXPECT_TRUE(cloud.normals.empty());
     }
+}
+
+TEST_F(SampleCli, BlueNoiseFillsWithExactlyTheCount)
+{
+    const auto json =
+        sample_json({"builtin:torus", "-o", "v.ply", "--volume", "--count", "600", "--lattice", "blue-noise"});
+    EXPECT_EQ(json["interior_points"], 600);
+    EXPECT_NEAR(json["spacing"], std::cbrt(json["volume"].get<double>() / 600.0), 1e-9);
+    const PointCloud cloud = import_point_cloud(path("v.ply"));
+    ASSERT_EQ(cloud.size(), 600u);
+    double nearest = 1.0;
+    for (std::size_t i = 0; i < cloud.size(); ++i) {
+        const glm::vec3& p = cloud.positions[i];
+        ASSERT_LT(std::hypot(std::hypot(p.x, p.z) - 1.0f, p.y), 0.4f);
+        for (std::size_t j = 0; j < i; ++j) {
+            nearest = std::min(nearest, double(glm::distance(p, cloud.positions[j])));
+        }
+    }
+    EXPECT_GT(nearest, 0.6 * json["spacing"].get<double>());
+    EXPECT_EQ(
+        sample({"builtin:torus", "-o", "w.ply", "--volume", "--count", "600", "--lattice", "blue-noise", "--seed", "2"})
+            .exit_code,
+        0);
+    EXPECT_NE(bytes("v.ply"), bytes("w.ply"));
+}
+
+// --- clouds of points ----------------------------------------------------------------------------
+
+/// A sphere as an ASCII PLY: colored by height and, where asked, with normals.
+std::string sphere_ply(std::size_t count, bool normals)
+{
+    const PointCloud cloud = test::fibonacci_sphere(count);
+    std::string text = fmt::format("ply\nformat ascii 1.0\nelement vertex {}\nproperty float x\nproperty float y\n"
+                                   "property float z\n{}property uchar red\nproperty uchar green\nproperty uchar "
+                                   "blue\nelement face 0\nproperty list uchar int vertex_indices\nend_header\n",
+                                   count, normals ? "property float nx\nproperty float ny\nproperty float nz\n" : "");
+    for (const glm::vec3& p : cloud.positions) {
+        text += fmt::format("{} {} {}", p.x, p.y, p.z);
+        text += normals ? fmt::format(" {} {} {}", p.x, p.y, p.z) : "";
+        text += p.y > 0.0f ? " 255 128 0\n" : " 0 0 9\n";
+    }
+    return text;
+}
+
+TEST_F(SampleCli, ACloudKeepsItsPointsAndGetsNormals)
+{
+    write("cloud.ply", sphere_ply(2000, false));
+    const Result result = sample({"cloud.ply", "-o", "out.ply", "--json"});
+    EXPECT_EQ(result.exit_code, 0) << result.err;
+    EXPECT_EQ(result.err, "cloud.ply: 2000 of 2000 normals were missing: they are estimated from nearest neighbors "
+                          "and oriented outward\n");
+    const auto json = nlohmann::json::parse(result.out);
+    constexpr double pi = 3.14159265358979;
+    EXPECT_EQ(json["triangles"], 0);
+    EXPECT_EQ(json["boundary_edges"], 0);
+    EXPECT_EQ(json["nonmanifold_edges"], 0);
+    EXPECT_NEAR(json["area"], 4.0 * pi, 0.01 * 4.0 * pi);
+    EXPECT_NEAR(json["volume"], 4.0 / 3.0 * pi, 0.02 * 4.0 / 3.0 * pi);
+    EXPECT_EQ(json["surface_points"], 2000);
+    EXPECT_EQ(json["interior_points"], 0);
+    EXPECT_NEAR(json["spacing"], std::sqrt(json["area"].get<double>() / 2000.0), 1e-12);
+    EXPECT_NEAR(json["particle_mass"], 1000.0 * json["volume"].get<double>() / 2000.0, 1e-9);
+    const nlohmann::json cloud_json{{"points", 2000},       {"duplicates", 0},
+                                    {"normals_given", 0},   {"normals_estimated", 2000},
+                                    {"normals_unknown", 0}, {"pieces_oriented", 1}};
+    EXPECT_EQ(json["cloud"], cloud_json);
+    for (const char* stage : {"load", "normals", "sample", "measure", "save"}) {
+        EXPECT_GE(json["seconds"][stage].get<double>(), 0.0) << stage;
+    }
+    const PointCloud in = import_point_cloud(path("cloud.ply"));
+    const PointCloud out = import_point_cloud(path("out.ply"));
+    EXPECT_EQ(out.positions, in.positions);
+    EXPECT_EQ(out.colors, in.colors);
+    ASSERT_EQ(out.normals.size(), 2000u);
+    for (std::size_t i = 0; i < out.size(); ++i) {
+        ASSERT_GT(glm::dot(out.normals[i], out.positions[i]), 0.999f);
+    }
+}
+
+TEST_F(SampleCli, NormalsOfACloudAreKeptInSilence)
+{
+    write("cloud.ply", sphere_ply(2000, true));
+    const auto json = sample_json({"cloud.ply", "-o", "out.xyz"}); // nothing on stderr
+    EXPECT_EQ(json["cloud"]["normals_given"], 2000);
+    EXPECT_EQ(json["cloud"]["normals_estimated"], 0);
+    const PointCloud in = import_point_cloud(path("cloud.ply"));
+    const PointCloud out = import_point_cloud(path("out.xyz"));
+    ASSERT_EQ(out.normals.size(), 2000u);
+    for (std::size_t i = 0; i < out.size(); ++i) {
+        ASSERT_LT(glm::distance(out.normals[i], in.normals[i]), 1e-6f);
+    }
+    write("bare.ply", sphere_ply(2000, false));
+    EXPECT_EQ(run({"--quiet", "sample", "bare.ply", "-o", "out.ply"}).err, "");
+}
+
+TEST_F(SampleCli, ACloudIsFilled)
+{
+    write("cloud.ply", sphere_ply(3000, false));
+    constexpr double ball = 4.0 / 3.0 * 3.14159265358979;
+    for (const char* lattice : {"cubic", "blue-noise"}) {
+        const Result result = sample({"cloud.ply", "-o", "out.ply", "--volume", "--json", "--count", "1500",
+                                      "--lattice", lattice, "--rest-density", "500", "--force"});
+        EXPECT_EQ(result.exit_code, 0) << result.err;
+        const auto json = nlohmann::json::parse(result.out);
+        EXPECT_NEAR(json["volume"], ball, 0.02 * ball);
+        EXPECT_EQ(json["surface_points"], 0);
+        const auto points = json["interior_points"].get<double>();
+        EXPECT_NEAR(points, 1500.0, 30.0);
+        EXPECT_NEAR(json["particle_mass"], 500.0 * json["volume"].get<double>() / points, 1e-9);
+        const PointCloud cloud = import_point_cloud(path("out.ply"));
+        EXPECT_EQ(cloud.size(), points);
+        for (const glm::vec3& p : cloud.positions) {
+            ASSERT_LT(glm::length(p), 1.01f);
+        }
+    }
+    write("floor.xyz", "0 0 0\n1 0 0\n0 0 1\n1 0 1\n0.5 0 0.4\n");
+    expect_one_sentence(sample({"floor.xyz", "-o", "floor.ply", "--volume"}), 2, "encloses no volume");
+    EXPECT_EQ(sample({"floor.xyz", "-o", "floor.ply"}).exit_code, 0);
+}
+
+TEST_F(SampleCli, ACloudIsSampledAnewWhereACountASpacingOrAMethodIsGiven)
+{
+    write("cloud.ply", sphere_ply(1000, true));
+    for (const char* method : {"random", "stratified", "blue-noise"}) {
+        for (const char* count : {"300", "5000"}) {
+            const auto json =
+                sample_json({"cloud.ply", "-o", "out.ply", "--count", count, "--method", method, "--force"});
+            EXPECT_EQ(json["surface_points"], std::stoi(count)) << method;
+            const PointCloud cloud = import_point_cloud(path("out.ply"));
+            ASSERT_EQ(cloud.size(), std::stoul(count));
+            EXPECT_EQ(cloud.colors.size(), cloud.size());
+            for (std::size_t i = 0; i < cloud.size(); ++i) {
+                ASSERT_NEAR(glm::length(cloud.positions[i]), 1.0f, 0.02f);
+                ASSERT_GT(glm::dot(cloud.normals[i], cloud.positions[i]), 0.97f);
+            }
+        }
+    }
+    EXPECT_EQ(sample_json({"cloud.ply", "-o", "a.ply", "--method", "random"})["surface_points"], 1000);
+    EXPECT_NE(import_point_cloud(path("a.ply")).positions, import_point_cloud(path("cloud.ply")).positions);
+    EXPECT_NEAR(sample_json({"cloud.ply", "-o", "b.ply", "--spacing", "0.1"})["spacing"], 0.1, 1e-4);
 }
 
 TEST_F(SampleCli, TheSeedAndNothingElseDecidesThePoints)
@@ -270,7 +411,8 @@ std::vector<BadFile> bad_files()
     }
     const auto add = [&](const std::string& name, const auto& write) {
         for (const TriangleMesh* mesh : {&nan, &infinite, &outside, &flat, &empty}) {
-            if (mesh != &outside || !name.ends_with(".stl")) {
+            const bool is_cloud = mesh == &empty && name == "m.ply"; // no faces, eight points
+            if ((mesh != &outside || !name.ends_with(".stl")) && !is_cloud) {
                 all.push_back({name, write(*mesh)});
             }
         }
@@ -322,6 +464,15 @@ std::vector<BadFile> bad_files()
     all.push_back({"m.gltf", gltf_json_of(cube, R"("uri": "../../../../etc/passwd", )")});
     all.push_back({"m.xyz", "1 2 3\nnan 0 0\n"});
     all.push_back({"m.xyz", "1 2 3\n1 2\n"});
+    all.push_back({"m.xyz", "1 2 3\n"});
+    all.push_back({"m.xyz", "1 2 3\n4 5 6\n1 2 3\n"});
+    all.push_back({"m.xyz", "0 0 0\n1 0 0\n2 0 0\n3 0 0\n5 0 0\n"});
+    all.push_back({"m.xyz", "0 0 0\n1e-12 0 0\n0 1e-12 0\n"});
+    all.push_back({"m.xyz", "0 0 0\n1e10 0 0\n0 1e10 0\n"});
+    const std::string cloud = ascii_ply_of({cube.positions, {}, {}});
+    all.push_back({"m.ply", replaced(cloud, "vertex 8", "vertex 0")});
+    all.push_back({"m.ply", replaced(cloud, "vertex 8", "vertex 900")});
+    all.push_back({"m.ply", cloud.substr(0, cloud.size() - 9)});
     return all;
 }
 

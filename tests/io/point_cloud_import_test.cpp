@@ -6,6 +6,7 @@
 
 #include "core/error.h"
 #include "geometry/builtin_meshes.h"
+#include "io/input_file.h"
 #include "support/mesh_files.h"
 #include "support/scratch_folder.h"
 
@@ -125,7 +126,7 @@ TEST(PointCloudImport, BrokenFilesAreRefused)
 {
     for (const char* text : {"\n", "# nothing\n", "1 2\n", "1 2 3 4\n", "1 2 3 4 5 6 7\n", "1 2 3\n1 2 3 4 5 6\n",
                              "1 2 3\n1 2 x\n", "1 2 3x\n", "nan 0 0\n", "0 inf 0\n", "1e300 0 0\n", "1e10 0 0\n",
-                             "1 2 3 0 0 nan\n", "1 2 3 4 5 6 7 8 9 10\n", "1,,2\n", "ply\n"}) {
+                             "1 2 3 4 5 6 7 8 9 10\n", "1,,2\n", "ply\n"}) {
         EXPECT_NE(refusal(text, "p.xyz"), "") << text;
     }
     EXPECT_NE(refusal("1 2 3\n4 5 x6\n", "p.xyz").find("p.xyz:2: a column is \"x6\", not a number"), std::string::npos);
@@ -142,18 +143,34 @@ TEST(PointCloudImport, NormalsThatAreAllZeroAreNone)
     EXPECT_EQ(some.normals[0], glm::vec3(0.0f));
 }
 
+TEST(PointCloudImport, NormalsThatAreNotFiniteAreMissing)
+{
+    const PointCloud some = parse("0 0 0 0 0 nan\n1 0 0 0 3 4\n2 0 0 inf 0 0\n", "p.xyz");
+    ASSERT_EQ(some.normals.size(), 3u);
+    EXPECT_EQ(some.normals[0], glm::vec3(0.0f));
+    EXPECT_LT(glm::distance(some.normals[1], glm::vec3(0.0f, 0.6f, 0.8f)), 1e-6f);
+    EXPECT_EQ(some.normals[2], glm::vec3(0.0f));
+    EXPECT_TRUE(parse("0 0 0 0 0 nan\n", "p.xyz").normals.empty());
+}
+
 TEST(PointCloudImport, KnowsPointsFromMeshes)
 {
     const test::ScratchFolder folder;
     test::write_bytes(folder / "a.xyz", "1 2 3\n");
     test::write_bytes(folder / "b.ply", ply_header("ascii", 1) + "0 0 0 0 0 1 0 0 0 0\n");
     test::write_bytes(folder / "c.ply", test::ascii_ply_of(builtin_mesh("cube")));
-    EXPECT_TRUE(holds_points(folder / "a.xyz"));
-    EXPECT_TRUE(holds_points(folder / "b.ply"));
-    EXPECT_FALSE(holds_points(folder / "c.ply"));
-    EXPECT_FALSE(holds_points(folder / "mesh.obj"));
+    test::write_bytes(folder / "d.ply", test::ascii_ply_of({builtin_mesh("cube").positions, {}, {}}));
+    test::write_bytes(folder / "e.obj", test::obj_of(builtin_mesh("cube")));
+    const auto points = [&](const char* name) {
+        return holds_points(read_input_file(folder / name), folder / name);
+    };
+    EXPECT_TRUE(points("a.xyz"));
+    EXPECT_TRUE(points("b.ply"));
+    EXPECT_FALSE(points("c.ply"));
+    EXPECT_TRUE(points("d.ply")) << "a mesh without faces, as some programs write clouds";
+    EXPECT_FALSE(points("e.obj"));
     EXPECT_EQ(import_point_cloud(folder / "a.xyz").size(), 1u);
-    EXPECT_THROW((void)holds_points(folder / "missing.ply"), Error);
+    EXPECT_THROW((void)import_point_cloud(folder / "missing.ply"), Error);
 }
 
 } // namespace
