@@ -205,6 +205,27 @@ TEST(VolumeSampling, TheOpenTeapotIsFilledToItsVolume)
     }
 }
 
+TEST(VolumeSampling, BlueNoiseFillsOpenMeshesWithoutASpike)
+{
+    TriangleMesh bowl = builtin_mesh("sphere");
+    std::erase_if(bowl.triangles, [&](const glm::uvec3& t) {
+        return bowl.positions[t.x].y + bowl.positions[t.y].y + bowl.positions[t.z].y > 3.0f * 0.6f;
+    });
+    for (const TriangleMesh& mesh : {bowl, teapot(5)}) {
+        const MeshSolid solid(mesh);
+        const VolumeSamples samples = sample_volume(solid, {Lattice::BlueNoise, PointCount{1200}});
+        ASSERT_EQ(samples.positions.size(), 1200u);
+        const Aabb box = bounds(mesh);
+        for (const glm::vec3& p : samples.positions) {
+            ASSERT_TRUE(box.contains(p));
+            ASSERT_GE(winding_number_exact(mesh, glm::dvec3(p)), 0.5 - 0.01);
+        }
+        const Evenness evenness = evenness_of(samples.positions, solid);
+        EXPECT_GE(evenness.relative_radius, 0.7);
+        EXPECT_LE(evenness.density_spread, 0.01);
+    }
+}
+
 TEST(VolumeSampling, AnOverlapCountsOnce)
 {
     TriangleMesh two = builtin_mesh("cube");
