@@ -294,9 +294,14 @@ mutation "scenes: fluid starts where other fluid is" \
     unit_tests 'OverlappingFluids.*'
 mutation "scenes: colliders are hollow" \
     engine/run/scene_colliders.cpp \
-    'collider.solid ? placed_solid' \
-    '!collider.solid ? placed_solid' \
+    'if (!collider.solid)' \
+    'if (collider.solid)' \
     unit_tests 'SceneColliders.*'
+mutation "scenes: normals of a scan do not turn along with it" \
+    engine/run/placed_mesh.cpp \
+    'glm::mat3(matrix) * normal' \
+    'normal' \
+    unit_tests 'SceneColliders.AScanIsSampledAnewAndSolid'
 mutation "scenes: blue noise is relaxed as if there were no walls" \
     engine/run/scene_particles.cpp \
     'request.relaxation.mirrors = Aabb{scene.domain.min, scene.domain.max};' \

@@ -1,7 +1,7 @@
 #include "run/placed_mesh.h"
 
 #include <algorithm>
-#include <array>
+#include <utility>
 
 #include <glm/gtc/matrix_transform.hpp>
 
@@ -9,13 +9,15 @@
 #include "geometry/builtin_meshes.h"
 #include "geometry/mesh_solid.h"
 #include "run/load_mesh.h"
+#include "run/load_surface.h"
 
 namespace meltpoint {
 
-TriangleMesh placed_mesh(const MeshShape& shape)
+namespace {
+
+/// Of what fills `box` in its file.
+glm::mat4 placement(const MeshShape& shape, const Aabb& box)
 {
-    TriangleMesh mesh = load_mesh(shape.mesh);
-    const Aabb box = bounds(mesh);
     const glm::vec3 extent = box.size();
     const float largest = std::max({extent.x, extent.y, extent.z});
     const float scale = shape.size ? *shape.size / largest : 1.0f;
@@ -24,9 +26,38 @@ TriangleMesh placed_mesh(const MeshShape& shape)
     matrix = glm::rotate(matrix, glm::radians(shape.rotation.y), glm::vec3(0.0f, 1.0f, 0.0f));
     matrix = glm::rotate(matrix, glm::radians(shape.rotation.x), glm::vec3(1.0f, 0.0f, 0.0f));
     matrix = glm::scale(matrix, glm::vec3(scale));
-    matrix = glm::translate(matrix, -box.center());
-    transform(mesh, matrix);
+    return glm::translate(matrix, -box.center());
+}
+
+TriangleMesh placed(const MeshShape& shape, TriangleMesh mesh)
+{
+    transform(mesh, placement(shape, bounds(mesh)));
     return mesh;
+}
+
+CloudSurface placed(const MeshShape& shape, PointCloud cloud)
+{
+    Aabb box;
+    for (const glm::vec3& x : cloud.positions) {
+        box.extend(x);
+    }
+    const glm::mat4 matrix = placement(shape, box);
+    for (glm::vec3& x : cloud.positions) {
+        x = glm::vec3(matrix * glm::vec4(x, 1.0f));
+    }
+    for (glm::vec3& normal : cloud.normals) {
+        if (normal != glm::vec3(0.0f)) { // else it is unknown
+            normal = glm::normalize(glm::mat3(matrix) * normal);
+        }
+    }
+    return make_cloud_surface(std::move(cloud), shape.mesh);
+}
+
+} // namespace
+
+TriangleMesh placed_mesh(const MeshShape& shape)
+{
+    return placed(shape, load_mesh(shape.mesh));
 }
 
 TriangleMesh placed_mesh(const BlockShape& shape)
@@ -54,6 +85,17 @@ TriangleMesh placed_mesh(const SphereShape& shape)
     TriangleMesh mesh = builtin_mesh("sphere");
     transform(mesh, glm::scale(glm::translate(glm::mat4(1.0f), shape.center), glm::vec3(shape.radius)));
     return mesh;
+}
+
+std::variant<TriangleMesh, CloudSurface> placed_surface(const BodyShape& shape)
+{
+    using Result = std::variant<TriangleMesh, CloudSurface>;
+    const auto* mesh = std::get_if<MeshShape>(&shape);
+    if (mesh == nullptr) {
+        return std::visit([](const auto& each) -> Result { return placed_mesh(each); }, shape);
+    }
+    return std::visit([&](auto loaded) -> Result { return placed(*mesh, std::move(loaded)); },
+                      load_surface(mesh->mesh));
 }
 
 std::unique_ptr<Solid> placed_solid(const BodyShape& shape)

@@ -1,7 +1,9 @@
 #pragma once
 
 #include <memory>
+#include <variant>
 
+#include "geometry/cloud_surface.h"
 #include "geometry/solid.h"
 #include "geometry/triangle_mesh.h"
 #include "scene/scene.h"
@@ -16,7 +18,11 @@ namespace meltpoint {
 
 [[nodiscard]] TriangleMesh placed_mesh(const SphereShape& shape);
 
-/// What is inside a shape. Throws Input as load_mesh does.
+/// The surface of a shape; that of a mesh may be a file of points (load_surface), placed by their bounding box. Throws
+/// Input as load_surface and make_cloud_surface do.
+[[nodiscard]] std::variant<TriangleMesh, CloudSurface> placed_surface(const BodyShape& shape);
+
+/// What is inside a shape of meshes only. Throws Input as load_mesh does.
 [[nodiscard]] std::unique_ptr<Solid> placed_solid(const BodyShape& shape);
 
 } // namespace meltpoint

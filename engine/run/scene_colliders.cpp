@@ -1,9 +1,12 @@
 #include "run/scene_colliders.h"
 
 #include <utility>
+#include <variant>
 
 #include "core/aabb.h"
 #include "core/error.h"
+#include "geometry/cloud_solid.h"
+#include "geometry/cloud_surface.h"
 #include "geometry/surface_sampling.h"
 #include "run/placed_mesh.h"
 
@@ -11,13 +14,23 @@ namespace meltpoint {
 
 namespace {
 
+double area_of(const TriangleMesh& mesh)
+{
+    return surface_area(mesh);
+}
+
+double area_of(const CloudSurface& cloud)
+{
+    return cloud.area;
+}
+
 /// The points of collider `c`, wherever they lie.
-std::vector<glm::vec3> sample_collider(const Scene& scene, std::size_t c, std::uint64_t limit)
+template <class Surface>
+std::vector<glm::vec3> sample_collider(const Scene& scene, std::size_t c, const Surface& surface, std::uint64_t limit)
 {
     const ColliderBody& collider = scene.colliders[c];
-    const TriangleMesh mesh = std::visit([](const auto& shape) { return placed_mesh(shape); }, collider.shape);
     const double spacing = static_cast<double>(collider.spacing) * static_cast<double>(scene.particles.spacing);
-    const double count = surface_area(mesh) / (spacing * spacing);
+    const double count = area_of(surface) / (spacing * spacing);
     if (count > static_cast<double>(limit)) {
         throw input_error("{}: collider.{} needs about {:.0f} boundary particles, more than the device can hold, {}: "
                           "choose a larger collider.{}.spacing than {} or particles.spacing than {} m",
@@ -25,7 +38,19 @@ std::vector<glm::vec3> sample_collider(const Scene& scene, std::size_t c, std::u
     }
     const SurfaceRequest request{
         .method = SurfaceMethod::BlueNoise, .amount = PointSpacing{spacing}, .seed = scene.seed + c};
-    return sample_surface(mesh, request).cloud.positions;
+    return sample_surface(surface, request).cloud.positions;
+}
+
+/// Null for a shell.
+std::shared_ptr<const Solid> inside_of(const ColliderBody& collider,
+                                       const std::variant<TriangleMesh, CloudSurface>& surface)
+{
+    if (!collider.solid) {
+        return nullptr;
+    }
+    const auto* cloud = std::get_if<CloudSurface>(&surface);
+    return cloud != nullptr ? std::make_shared<CloudSolid>(*cloud)
+                            : std::shared_ptr<const Solid>(placed_solid(collider.shape));
 }
 
 } // namespace
@@ -37,20 +62,22 @@ std::vector<ColliderSamples> sample_colliders(const Scene& scene, std::uint64_t 
     std::uint64_t total = 0;
     for (std::size_t c = 0; c < scene.colliders.size(); ++c) {
         const ColliderBody& collider = scene.colliders[c];
-        std::vector<glm::vec3> points = sample_collider(scene, c, limit);
+        const std::variant<TriangleMesh, CloudSurface> surface = placed_surface(collider.shape);
+        std::vector<glm::vec3> points =
+            std::visit([&](const auto& each) { return sample_collider(scene, c, each, limit); }, surface);
         Aabb box;
         for (const glm::vec3& x : points) {
             box.extend(x);
         }
         std::erase_if(points, [&](const glm::vec3& x) { return !domain.contains(x); });
         if (points.empty()) {
-            throw input_error(
-                "{}: collider.{} lies outside the domain: in [{:.4g}, {:.4g}, {:.4g}] to [{:.4g}, {:.4g}, "
-                "{:.4g}] m",
-                scene.name, c, box.min.x, box.min.y, box.min.z, box.max.x, box.max.y, box.max.z);
+            throw input_error("{}: the surface of collider.{} lies outside the domain: in [{:.4g}, {:.4g}, {:.4g}] to "
+                              "[{:.4g}, {:.4g}, "
+                              "{:.4g}] m",
+                              scene.name, c, box.min.x, box.min.y, box.min.z, box.max.x, box.max.y, box.max.z);
         }
         total += points.size();
-        samples.push_back({std::move(points), collider.solid ? placed_solid(collider.shape) : nullptr});
+        samples.push_back({std::move(points), inside_of(collider, surface)});
     }
     if (total > limit) {
         throw input_error("{}: the colliders need {} boundary particles, more than the device can hold, {}: choose a "

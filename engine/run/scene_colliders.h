@@ -17,8 +17,8 @@ struct ColliderSamples {
 };
 
 /// Each collider of a scene: points all over its surface, collider.spacing particle spacings apart, without those
-/// outside the domain. Throws Input for meshes that cannot be read, colliders of which nothing lies in the domain, and
-/// more than `limit` points.
+/// outside the domain. A mesh may be a file of points: a scan. Throws Input for files that cannot be read, colliders of
+/// which nothing lies in the domain, and more than `limit` points.
 [[nodiscard]] std::vector<ColliderSamples> sample_colliders(const Scene& scene, std::uint64_t limit);
 
 } // namespace meltpoint

@@ -86,7 +86,8 @@ std::string_view about(std::string_view list)
                ? "Once for each body of fluid, at least one. Where fluids overlap, the first one in the file "
                  "keeps its place. Here the keys of every fluid; then those of its shape."
                : "Once for each solid that stands in the fluid's way, if any. What of it lies outside the "
-                 "domain is cut off. A block that is flat along one axis is a plate. Here the keys of every "
+                 "domain is cut off. A block that is flat along one axis is a plate. A mesh may also be a scan: a file "
+                 "of points (.xyz, or .ply without faces). Here the keys of every "
                  "collider; then those of its shape.";
 }
 

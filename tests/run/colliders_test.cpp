@@ -3,10 +3,12 @@
 #include <numbers>
 #include <optional>
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include "core/error.h"
 #include "run/scene_particles.h"
+#include "support/clouds.h"
 #include "support/scratch_folder.h"
 
 namespace meltpoint {
@@ -97,7 +99,8 @@ TEST(SceneColliders, WhatIsOutsideOfTheDomainIsCutOff)
     }
 
     scene.colliders[0].shape = SphereShape{{0.0f, 4.0f, 0.0f}, 0.5f};
-    EXPECT_TRUE(refusal(scene).starts_with("test: collider.0 lies outside the domain: in [-0.49")) << refusal(scene);
+    EXPECT_TRUE(refusal(scene).starts_with("test: the surface of collider.0 lies outside the domain: in [-0.49"))
+        << refusal(scene);
 }
 
 TEST(SceneColliders, TooManyBoundaryParticlesAreOneSentence)
@@ -154,6 +157,38 @@ TEST(SceneColliders, AMeshIsSolidWhereItsWindingNumberSaysSo)
     }
 }
 
+// A scanned ball does what a ball does, wherever its own points lie.
+TEST(SceneColliders, AScanIsSampledAnewAndSolid)
+{
+    const test::ScratchFolder folder;
+    std::string text;
+    for (const glm::vec3& x : test::fibonacci_sphere(3000).positions) {
+        text += fmt::format("{} {} {} {} {} {}\n", 2.0f * x.x + 5.0f, 2.0f * x.y, 2.0f * x.z, x.x, x.y, x.z);
+    }
+    test::write_bytes(folder / "ball.xyz", text);
+    Scene scene = block_scene();
+    ColliderBody ball;
+    ball.shape = MeshShape{
+        .mesh = (folder / "ball.xyz").string(), .size = 0.5f, .position = {0, 0.4f, 0}, .rotation = {40, 50, 60}};
+    scene.colliders.push_back(ball);
+    const glm::vec3 center(0.0f, 0.4f, 0.0f);
+    const ParticleSet particles = make_particles(scene, no_limit);
+    const std::size_t fluid = count(particles, shared::STATE_FLUID);
+    EXPECT_NEAR(static_cast<double>(particles.size() - fluid), 4.0 * std::numbers::pi * 0.25 * 0.25 / (0.07 * 0.07),
+                8.0);
+    for (std::size_t i = 0; i < particles.size(); ++i) {
+        const float r = glm::distance(particles.position[i], center);
+        ASSERT_TRUE(i < fluid ? r > 0.25f + 0.9f * d : std::abs(r - 0.25f) < 0.01f) << i << " " << r;
+    }
+
+    scene.colliders[0].solid = false;
+    std::size_t inside = 0;
+    for (const glm::vec3& x : make_particles(scene, no_limit).position) {
+        inside += glm::distance(x, center) < 0.1f ? 1 : 0;
+    }
+    EXPECT_GT(inside, 0u);
+}
+
 TEST(SceneColliders, FilesThatCannotBeReadAreNamed)
 {
     const test::ScratchFolder folder;
@@ -162,6 +197,9 @@ TEST(SceneColliders, FilesThatCannotBeReadAreNamed)
     for (const auto& [name, content] : {std::pair{"missing.obj", std::optional<std::string>()},
                                         {"empty.obj", ""},
                                         {"empty.ply", ""},
+                                        {"empty.xyz", ""},
+                                        {"missing.xyz", std::nullopt},
+                                        {"line.xyz", "0 0 0\n1 0 0\n2 0 0\n3 0 0\n"},
                                         {"flat.obj", "v 0 0 0\nv 1 0 0\nv 2 0 0\nf 1 2 3\n"}}) {
         if (content) {
             test::write_bytes(folder / name, *content);
@@ -174,7 +212,7 @@ TEST(SceneColliders, FilesThatCannotBeReadAreNamed)
 TEST(SceneColliders, ASolidThatReachesOutOfTheDomainIsSolidUpToItsWalls)
 {
     Scene scene = block_scene();
-    scene.colliders.push_back({.shape = BlockShape{{-5.0f, -5.0f, -5.0f}, {0.0f, 5.0f, 5.0f}}});
+    scene.colliders.push_back({.shape = BlockShape{{-1.5f, -0.5f, -1.5f}, {0.0f, 2.5f, 1.5f}}});
     for (const glm::vec3& x : make_particles(scene, no_limit).position) {
         ASSERT_GE(x.x, -1e-5f);
     }

@@ -98,9 +98,9 @@ TEST(SceneParticles, BlueNoiseBetweenWallsStartsAtRest)
 {
     for (const SphKernel kernel : {SphKernel::Wendland, SphKernel::Paper}) {
         for (const float support_ratio : {2.0f, 2.6f}) {
-            Scene scene = scene_of(block(glm::vec3(0.0f), glm::vec3(1.4f)));
+            Scene scene = scene_of(block(glm::vec3(0.0f), glm::vec3(1.2f)));
             scene.domain.min = glm::vec3(0.0f);
-            scene.domain.max = glm::vec3(1.4f);
+            scene.domain.max = glm::vec3(1.2f);
             scene.fluids[0].lattice = FluidLattice::BlueNoise;
             scene.kernel = kernel;
             scene.particles.support_ratio = support_ratio;
