@@ -13,6 +13,9 @@
 
 namespace meltpoint::render {
 
+/// Most particles, and most discs, of a frame: six vertices each must have an index of 32 bits.
+inline constexpr std::uint32_t max_splats = 1u << 28;
+
 /// Particles in device buffers, read only. Fluid, solid and dust alike are drawn as spheres; dead ones are not drawn.
 struct ParticleView {
     const gpu::Buffer& position;   ///< vec4: xyz in m

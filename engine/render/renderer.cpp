@@ -25,7 +25,6 @@ constexpr std::uint32_t max_samples = 4;
 constexpr std::uint32_t shadow_size = 512; // texels
 constexpr std::uint32_t vertices_per_quad = 6;
 constexpr std::uint32_t box_edges = 12;
-constexpr std::uint32_t max_splats = 1u << 28;
 constexpr VkFormat visibility_format = VK_FORMAT_R32_UINT;
 constexpr VkFormat depth_format = VK_FORMAT_D32_SFLOAT;
 constexpr VkFormat picture_format = VK_FORMAT_R8G8B8A8_SRGB;

@@ -12,6 +12,7 @@
 #include <glm/glm.hpp>
 
 #include "gpu/transfer.h"
+#include "render/disc_buffers.h"
 #include "render/renderer.h"
 #include "shared/colormap.h"
 #include "shared/particle_state.h"
@@ -99,18 +100,15 @@ protected:
             disc_normal.emplace_back(disc.normal, 0.0f);
             disc_color.emplace_back(disc.color, 1.0f);
         }
-        const gpu::Buffer centers = to_device(context(), disc_position, "disc position");
-        const gpu::Buffer normals = to_device(context(), disc_normal, "disc normal");
-        const gpu::Buffer colors = to_device(context(), disc_color, "disc color");
+        const render::DiscBuffers disc_buffers(context(), disc_position, disc_normal, disc_color);
 
         render::Renderer& renderer = renderer_of(width, height, samples);
         gpu::Commands commands(context());
         commands.begin();
-        renderer.draw(commands,
-                      {settings,
-                       render::ParticleView{position, velocity, density, pressure, attributes,
-                                            static_cast<std::uint32_t>(p.position.size())},
-                       render::DiscView{centers, normals, colors, static_cast<std::uint32_t>(disc_position.size())}});
+        renderer.draw(commands, {settings,
+                                 render::ParticleView{position, velocity, density, pressure, attributes,
+                                                      static_cast<std::uint32_t>(p.position.size())},
+                                 disc_buffers.view()});
         commands.submit();
         commands.wait();
         return {renderer.capture(), renderer.capture_distance()};

@@ -1,0 +1,41 @@
+#include "render/disc_buffers.h"
+
+#include <algorithm>
+#include <stdexcept>
+#include <string>
+
+#include "gpu/transfer.h"
+
+namespace meltpoint::render {
+
+namespace {
+
+gpu::Buffer to_device(const gpu::Context& context, std::span<const glm::vec4> data, const std::string& name)
+{
+    gpu::Buffer buffer = gpu::make_buffer<glm::vec4>(context, data.size(), name);
+    gpu::upload<glm::vec4>(context, buffer, data);
+    return buffer;
+}
+
+} // namespace
+
+DiscBuffers::DiscBuffers(const gpu::Context& context, std::span<const glm::vec4> position_radius,
+                         std::span<const glm::vec4> normal, std::span<const glm::vec4> color)
+    : count_(static_cast<std::uint32_t>(position_radius.size())),
+      position_(to_device(context, position_radius, "disc position")),
+      normal_(to_device(context, normal, "disc normal")), color_(to_device(context, color, "disc color"))
+{
+    if (normal.size() != position_radius.size() || color.size() != position_radius.size()) {
+        throw std::logic_error("DiscBuffers: the arrays differ in length");
+    }
+}
+
+std::uint64_t DiscBuffers::max_discs(const gpu::Context& context)
+{
+    constexpr std::uint64_t bytes_per_disc = 3 * sizeof(glm::vec4);
+    const std::uint64_t by_binding = context.limits().maxStorageBufferRange / sizeof(glm::vec4);
+    const std::uint64_t by_memory = context.info().memory_bytes / bytes_per_disc;
+    return std::min({by_binding, by_memory, std::uint64_t{max_splats}});
+}
+
+} // namespace meltpoint::render
