@@ -1,8 +1,9 @@
 #include <functional>
 
+#include "conformance/ray_cast.h"
+#include "conformance/splat_accuracy.h"
 #include "core/random.h"
 #include "images/picture_test_support.h"
-#include "images/ray_cast.h"
 
 namespace meltpoint {
 namespace {
@@ -225,66 +226,16 @@ TEST_F(SplatTest, TheNearestOfManySpheresIsSeen)
     }
 }
 
-// The picture: a sphere of 20,000 splats on blue-noise points against the true sphere.
 TEST_F(SplatTest, ASphereOfDiscsKeepsItsOutlineItsNormalsAndItsPlace)
 {
-    constexpr int count = 20'000;
-    constexpr std::uint32_t pixels = 512;
-    constexpr double pi = 3.14159265358979323846;
-    const double disc_radius = std::sqrt(4.0 * pi / count); // of a unit sphere: overdraw pi
-    std::vector<Disc> discs;
-    for (int i = 0; i < count; ++i) {
-        const double z = 1.0 - (2.0 * i + 1.0) / count;
-        const double angle = i * pi * (3.0 - std::sqrt(5.0));
-        const double r = std::sqrt(1.0 - z * z);
-        const glm::vec3 normal(r * std::cos(angle), r * std::sin(angle), z);
-        discs.push_back({normal, normal, static_cast<float>(disc_radius)});
-    }
-    ray_cast::Camera reference;
-    reference.eye = {0.0, 0.0, 3.0};
-    reference.half_height = std::tan(20.0 * pi / 180.0);
-    render::FrameSettings settings;
-    settings.camera = render::perspective_camera({0.0f, 0.0f, 3.0f}, {}, {0.0f, 1.0f, 0.0f}, 40.0f, 1.0f, 0.1f);
-    settings.color_mode = shared::COLOR_NORMAL;
-    const Drawn drawn = draw(pixels, pixels, settings, nullptr, &discs);
-
-    int inside = 0;
-    int holes = 0;
-    int spill = 0;
-    double normal_error = 0.0;
-    double worst_offset = 0.0;
-    for (std::uint32_t y = 0; y < pixels; ++y) {
-        for (std::uint32_t x = 0; x < pixels; ++x) {
-            const ray_cast::Ray ray = reference.ray(x + 0.5, y + 0.5, pixels, pixels);
-            const ray_cast::Hit hit = ray_cast::sphere(reference, ray, {}, 1.0);
-            const double distance = drawn.distance[y * pixels + x];
-            const bool visible = std::isfinite(distance);
-            inside += hit ? 1 : 0;
-            holes += hit && !visible ? 1 : 0;
-            spill += !hit && visible ? 1 : 0;
-            if (visible) {
-                worst_offset =
-                    std::max(worst_offset, std::abs(glm::length(ray.origin + distance * ray.direction) - 1.0));
-            }
-            if (hit && visible) {
-                const glm::ivec3 color = drawn.pixel(x, y);
-                const glm::dvec3 seen =
-                    2.0 * glm::dvec3(decode_srgb(color.r), decode_srgb(color.g), decode_srgb(color.b)) - 1.0;
-                const glm::dvec3 normal = ray.origin + *hit * ray.direction;
-                const double cosine = glm::dot(glm::normalize(seen), normal);
-                normal_error += std::acos(std::min(cosine, 1.0)) * 180.0 / pi;
-            }
-        }
-    }
-    normal_error /= inside - holes;
-    RecordProperty("spill_percent", std::to_string(100.0 * spill / inside));
-    RecordProperty("mean_normal_error_degrees", std::to_string(normal_error));
-    EXPECT_GT(inside, 100'000);
-    EXPECT_EQ(holes, 0);
-    EXPECT_LE(spill, 0.003 * inside);
-    EXPECT_LE(normal_error, 1.5);
-    // A disc's rim stands off the sphere by sqrt(1 + r^2) - 1, and nothing stands off farther.
-    EXPECT_LE(worst_offset, std::sqrt(1.0 + disc_radius * disc_radius) - 1.0 + 2e-6);
+    const conformance::SplatAccuracy accuracy = conformance::measure_splats(context());
+    RecordProperty("spill_percent", std::to_string(100.0 * accuracy.spill_share()));
+    RecordProperty("mean_normal_error_degrees", std::to_string(accuracy.normal_error));
+    EXPECT_GT(accuracy.inside, 100'000u);
+    EXPECT_EQ(accuracy.holes, 0u);
+    EXPECT_LE(accuracy.spill_share(), conformance::spill_bound);
+    EXPECT_LE(accuracy.normal_error, conformance::normal_error_bound);
+    EXPECT_LE(accuracy.worst_offset, accuracy.expected_offset + 2e-6);
 }
 
 } // namespace
