@@ -188,9 +188,10 @@ void add_sample(CLI::App& app, const GlobalOptions& global, int& exit_code)
     SampleRequest& request = options->request;
     CLI::App* command = app.add_subcommand("sample", "Turns a mesh or a scan into points, on its surface or inside");
     command
-        ->add_option("mesh", request.source,
-                     "A mesh (.obj, .ply, .stl, .gltf, .glb, .off), points (.ply, .xyz), or builtin:teapot, sphere, "
-                     "cube, torus")
+        ->add_option(
+            "mesh", request.source,
+            "A mesh (.obj, .ply, .stl, .gltf, .glb, .off), points (.ply, .xyz), or builtin:teapot, rabbit, sphere, "
+            "cube, torus")
         ->type_name("MESH")
         ->required();
     command->add_option("-o,--out", options->out, "The file to write: .ply, .msh (Gmsh), .vtp (VTK) or .xyz")

@@ -11,6 +11,7 @@
 #include <fmt/ranges.h>
 
 #include "core/error.h"
+#include "geometry/rabbit.h"
 #include "geometry/teapot.h"
 
 namespace meltpoint {
@@ -91,7 +92,7 @@ TriangleMesh torus()
     return mesh;
 }
 
-constexpr std::array<std::string_view, 4> names = {"teapot", "sphere", "cube", "torus"};
+constexpr std::array<std::string_view, 5> names = {"teapot", "rabbit", "sphere", "cube", "torus"};
 
 /// Levenshtein (1966): insertions, deletions and replacements that turn one word into the other.
 std::size_t edit_distance(std::string_view from, std::string_view to)
@@ -120,6 +121,9 @@ TriangleMesh builtin_mesh(std::string_view name)
 {
     if (name == "teapot") {
         return teapot(teapot_resolution);
+    }
+    if (name == "rabbit") {
+        return rabbit();
     }
     if (name == "sphere") {
         return sphere();

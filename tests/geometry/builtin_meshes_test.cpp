@@ -73,7 +73,7 @@ TEST(BuiltinMeshes, AnUnknownNameOffersTheNearest)
         EXPECT_EQ(error.kind(), ErrorKind::Input);
         const std::string message = error.what();
         EXPECT_NE(message.find("did you mean \"teapot\""), std::string::npos) << message;
-        EXPECT_NE(message.find("teapot, sphere, cube, torus"), std::string::npos) << message;
+        EXPECT_NE(message.find("teapot, rabbit, sphere, cube, torus"), std::string::npos) << message;
     }
     EXPECT_THROW((void)builtin_mesh(""), Error);
     EXPECT_THROW((void)builtin_mesh(std::string(1'000'000, 'x')), Error);
