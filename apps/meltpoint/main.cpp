@@ -36,6 +36,7 @@ int run(int argc, char** argv)
     program::add_sample(app, global, exit_code);
     program::add_compare(app, global, exit_code);
     program::add_bench(app, global, exit_code);
+    program::add_report(app, global, exit_code);
     program::add_info(app, global, exit_code);
     for (CLI::App* subcommand : app.get_subcommands([](const CLI::App*) { return true; })) {
         subcommand->footer("-q, --quiet, before or after the subcommand: no progress or notes on stderr.");

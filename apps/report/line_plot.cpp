@@ -1,0 +1,182 @@
+#include "report/line_plot.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+
+#include <fmt/format.h>
+
+#include "core/error.h"
+
+namespace meltpoint::report {
+
+namespace {
+
+constexpr double width = 720.0; // pixels
+constexpr double height = 420.0;
+constexpr double left = 72.0; // of the frame within the picture
+constexpr double right = width - 150.0;
+constexpr double top = 48.0;
+constexpr double bottom = height - 56.0;
+constexpr std::array<const char*, 6> colors = {"#1f6fb4", "#c8552b", "#2f8f5b", "#8a5fb0", "#9a7b1f", "#5b6570"};
+
+/// A logarithmic axis over whole and half decades: 1, 2, 5, 10, ...
+class Axis {
+public:
+    Axis(double smallest, double largest, double begin, double end) : begin_(begin), end_(end)
+    {
+        for (double decade = std::pow(10.0, std::floor(std::log10(smallest)));; decade *= 10.0) {
+            for (const double digit : {1.0, 2.0, 5.0}) {
+                const double tick = digit * decade;
+                if (!ticks_.empty() && tick <= smallest * (1.0 + 1e-9)) {
+                    ticks_.clear(); // the axis begins at the last tick below the data
+                }
+                ticks_.push_back(tick);
+                if (tick >= largest && ticks_.size() > 1) {
+                    return;
+                }
+            }
+        }
+    }
+
+    [[nodiscard]] const std::vector<double>& ticks() const { return ticks_; }
+    [[nodiscard]] double place(double value) const
+    {
+        return begin_ + (end_ - begin_) * std::log(value / ticks_.front()) / std::log(ticks_.back() / ticks_.front());
+    }
+
+private:
+    std::vector<double> ticks_;
+    double begin_;
+    double end_;
+};
+
+std::string escaped(const std::string& text)
+{
+    std::string result;
+    for (const char c : text) {
+        switch (c) {
+        case '&':
+            result += "&amp;";
+            break;
+        case '<':
+            result += "&lt;";
+            break;
+        case '>':
+            result += "&gt;";
+            break;
+        default:
+            result += c;
+        }
+    }
+    return result;
+}
+
+std::string short_number(double value)
+{
+    return value >= 1e6   ? fmt::format("{:g}M", value * 1e-6)
+           : value >= 1e3 ? fmt::format("{:g}k", value * 1e-3)
+                          : fmt::format("{:g}", value);
+}
+
+std::string text_at(double x, double y, const char* anchor, const std::string& text, const char* more = "")
+{
+    return fmt::format("<text x=\"{:.1f}\" y=\"{:.1f}\" text-anchor=\"{}\"{}>{}</text>\n", x, y, anchor, more,
+                       escaped(text));
+}
+
+struct Extent {
+    double min = std::numeric_limits<double>::infinity();
+    double max = 0.0;
+    void include(double value)
+    {
+        min = std::min(min, value);
+        max = std::max(max, value);
+    }
+};
+
+/// Moves labels apart that would cover each other, keeping their order.
+std::vector<double> spread(std::vector<double> wanted)
+{
+    constexpr double gap = 17.0;
+    std::vector<std::size_t> order(wanted.size());
+    for (std::size_t i = 0; i < order.size(); ++i) {
+        order[i] = i;
+    }
+    std::ranges::sort(order, {}, [&](std::size_t i) { return wanted[i]; });
+    for (std::size_t k = 1; k < order.size(); ++k) {
+        wanted[order[k]] = std::max(wanted[order[k]], wanted[order[k - 1]] + gap);
+    }
+    return wanted;
+}
+
+} // namespace
+
+std::string to_svg(const LinePlot& plot)
+{
+    Extent x_extent;
+    Extent y_extent;
+    for (const Curve& curve : plot.curves) {
+        for (const auto& [x, y] : curve.points) {
+            if (!(x > 0.0 && y > 0.0) || !std::isfinite(x) || !std::isfinite(y)) {
+                throw input_error("{}: the point ({}, {}) of {} has no logarithm", plot.title, x, y, curve.name);
+            }
+            x_extent.include(x);
+            y_extent.include(y);
+        }
+    }
+    if (!(x_extent.max > 0.0)) {
+        throw input_error("{}: there is nothing to plot", plot.title);
+    }
+    const Axis x_axis(x_extent.min, x_extent.max, left, right);
+    const Axis y_axis(y_extent.min, y_extent.max, bottom, top);
+
+    std::string svg = fmt::format(
+        "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 {0} {1}\" width=\"{0}\" height=\"{1}\" "
+        "font-family=\"sans-serif\" font-size=\"13\">\n<rect width=\"{0}\" height=\"{1}\" fill=\"#ffffff\"/>\n"
+        "<g stroke=\"#dde2e6\" fill=\"none\">\n",
+        width, height);
+    for (const double tick : x_axis.ticks()) {
+        svg += fmt::format("<path d=\"M{0:.1f} {1:.1f}V{2:.1f}\"/>\n", x_axis.place(tick), top, bottom);
+    }
+    for (const double tick : y_axis.ticks()) {
+        svg += fmt::format("<path d=\"M{1:.1f} {0:.1f}H{2:.1f}\"/>\n", y_axis.place(tick), left, right);
+    }
+    svg += "</g>\n<g fill=\"#333a40\">\n";
+    for (const double tick : x_axis.ticks()) {
+        svg += text_at(x_axis.place(tick), bottom + 18.0, "middle", short_number(tick));
+    }
+    for (const double tick : y_axis.ticks()) {
+        svg += text_at(left - 8.0, y_axis.place(tick) + 4.0, "end", short_number(tick));
+    }
+    const double middle = 0.5 * (left + right);
+    svg += text_at(middle, top - 20.0, "middle", plot.title, " font-size=\"16\"");
+    svg += text_at(middle, bottom + 42.0, "middle", plot.x_label);
+    svg += text_at(-0.5 * (top + bottom), 18.0, "middle", plot.y_label, " transform=\"rotate(-90)\"");
+    svg += "</g>\n";
+
+    std::vector<double> label_heights;
+    for (const Curve& curve : plot.curves) {
+        label_heights.push_back(curve.points.empty() ? top : y_axis.place(curve.points.back().second) + 4.0);
+    }
+    label_heights = spread(label_heights);
+    for (std::size_t c = 0; c < plot.curves.size(); ++c) {
+        const Curve& curve = plot.curves[c];
+        const char* color = colors[c % colors.size()];
+        std::string line;
+        std::string dots;
+        for (const auto& [x, y] : curve.points) {
+            const double px = x_axis.place(x);
+            const double py = y_axis.place(y);
+            line += fmt::format("{}{:.1f} {:.1f}", line.empty() ? "M" : "L", px, py);
+            dots += fmt::format("<circle cx=\"{:.1f}\" cy=\"{:.1f}\" r=\"3.5\"/>\n", px, py);
+        }
+        svg += fmt::format("<g fill=\"{0}\"><path d=\"{1}\" fill=\"none\" stroke=\"{0}\" stroke-width=\"2\"/>\n{2}",
+                           color, line, dots);
+        svg += text_at(right + 10.0, label_heights[c], "start", curve.name) + "</g>\n";
+    }
+    return svg + "</svg>\n";
+}
+
+} // namespace meltpoint::report
