@@ -20,6 +20,12 @@ void add_scene_options(CLI::App& command, SceneOptions& options)
         ->type_name("KEY=VALUE")
         ->allow_extra_args(false);
     command
+        .add_option(
+            "--mesh", options.mesh,
+            "A mesh (a file or builtin:NAME) that takes the place of every mesh of the scene, with its size and "
+            "place")
+        ->type_name("MESH");
+    command
         .add_option("--device", options.device,
                     "Vulkan device, by index or part of its name (see meltpoint info) [best usable]")
         ->type_name("NAME|INDEX");
@@ -29,7 +35,11 @@ void add_scene_options(CLI::App& command, SceneOptions& options)
 
 Scene load_scene(const SceneOptions& options)
 {
-    return find_scene(options.scene, options.overrides);
+    Scene scene = find_scene(options.scene, options.overrides);
+    if (!options.mesh.empty() && replace_meshes(scene, options.mesh) == 0) {
+        throw input_error("--mesh: the scene {} has no mesh whose place {} could take", scene.name, options.mesh);
+    }
+    return scene;
 }
 
 gpu::ContextOptions context_options(const SceneOptions& options)

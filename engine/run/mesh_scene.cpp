@@ -12,6 +12,7 @@
 #include "geometry/builtin_meshes.h"
 #include "geometry/volume_sampling.h"
 #include "run/load_mesh.h"
+#include "scene/key_table.h"
 #include "scene/scene_file.h"
 
 namespace meltpoint {
@@ -92,6 +93,20 @@ Scene find_scene(const std::string& name, std::span<const std::string> overrides
                                                                          : nearest_name(name, builtin);
     throw input_error("there is no scene or mesh \"{}\": neither a file nor a built-in scene ({}){}", name,
                       fmt::join(builtin, ", "), nearest ? fmt::format("; did you mean \"{}\"?", *nearest) : "");
+}
+
+std::size_t replace_meshes(Scene& scene, const std::string& mesh)
+{
+    std::size_t replaced = 0;
+    for_each_body_list(scene, [&](std::string_view, auto& bodies, const auto&) {
+        for (auto& body : bodies) {
+            if (auto* shape = std::get_if<MeshShape>(&body.shape)) {
+                shape->mesh = mesh;
+                ++replaced;
+            }
+        }
+    });
+    return replaced;
 }
 
 } // namespace meltpoint

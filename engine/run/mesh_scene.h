@@ -17,4 +17,8 @@ namespace meltpoint {
 /// Input for a mesh that encloses no volume or is not 0.001 to 2000 m large.
 [[nodiscard]] Scene mesh_scene(const std::string& name);
 
+/// Puts a mesh (a path or "builtin:NAME", not looked at yet) in the place of every mesh of a scene, which keeps its
+/// size and position. Returns how many that were.
+std::size_t replace_meshes(Scene& scene, const std::string& mesh);
+
 } // namespace meltpoint

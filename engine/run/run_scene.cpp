@@ -18,6 +18,7 @@
 #include "io/atomic_file.h"
 #include "io/image_write.h"
 #include "io/particle_export.h"
+#include "render/disc_buffers.h"
 #include "render/legend.h"
 #include "render/renderer.h"
 #include "run/fluid_settings.h"
@@ -25,6 +26,7 @@
 #include "run/frame_view.h"
 #include "run/output_files.h"
 #include "run/scene_particles.h"
+#include "run/surface_splats.h"
 #include "run/video.h"
 #include "sim/simulation.h"
 
@@ -162,22 +164,32 @@ private:
     std::string text_;
 };
 
-/// Draws the simulation's particles where they lie.
+std::optional<render::DiscBuffers> make_discs(const gpu::Context& context, const Scene& scene)
+{
+    if (scene.surfaces.empty()) {
+        return std::nullopt;
+    }
+    const SurfaceSplats splats = make_surface_splats(scene, render::DiscBuffers::max_discs(context));
+    return render::DiscBuffers(context, splats.position_radius, splats.normal, splats.color);
+}
+
+/// Draws the simulation's particles where they lie, and the scene's surfaces.
 class FramePainter {
 public:
     FramePainter(const gpu::Context& context, const Scene& scene, const shared::SphParams& params)
         : renderer_(context, scene.render.width, scene.render.height), commands_(context),
-          settings_(frame_settings(scene, params)), legend_(frame_legend(scene, settings_))
+          discs_(make_discs(context, scene)), settings_(frame_settings(scene, params)),
+          legend_(frame_legend(scene, settings_))
     {
     }
 
-    Image paint(const ParticleBuffers& particles)
+    /// Particles may be null: there are none.
+    Image paint(const ParticleBuffers* particles)
     {
         commands_.begin();
-        renderer_.draw(commands_,
-                       {.settings = settings_,
-                        .particles = render::ParticleView{particles.position, particles.velocity, particles.density,
-                                                          particles.pressure, particles.attributes, particles.count}});
+        renderer_.draw(commands_, {.settings = settings_,
+                                   .particles = particles != nullptr ? std::optional(view(*particles)) : std::nullopt,
+                                   .discs = discs_ ? std::optional(discs_->view()) : std::nullopt});
         commands_.submit();
         commands_.wait();
         Image image = renderer_.capture();
@@ -188,8 +200,15 @@ public:
     }
 
 private:
+    static render::ParticleView view(const ParticleBuffers& particles)
+    {
+        return {particles.position, particles.velocity,   particles.density,
+                particles.pressure, particles.attributes, particles.count};
+    }
+
     render::Renderer renderer_;
     gpu::Commands commands_;
+    std::optional<render::DiscBuffers> discs_;
     render::FrameSettings settings_;
     std::optional<render::Legend> legend_;
 };
@@ -215,16 +234,20 @@ RunSummary run_scene(const gpu::Context& context, const Scene& scene, const RunO
     for (const std::string& warning : settings.warnings) {
         log_warning(fmt::format("{}: {}", scene.name, warning));
     }
-    sim::Simulation simulation(context, initial, settings.simulation);
-    FramePainter painter(context, scene, simulation.params());
+    std::optional<sim::Simulation> simulation; // none in a scene of surfaces alone
+    if (initial.size() > 0) {
+        simulation.emplace(context, initial, settings.simulation);
+    }
+    const shared::SphParams& params = simulation ? simulation->params() : settings.simulation.params;
+    FramePainter painter(context, scene, params);
     std::optional<StatisticsFile> statistics_file;
     if (!options.stats.empty()) {
         statistics_file.emplace(options.stats);
     }
-    const double dt = static_cast<double>(simulation.params().dt);
+    const double dt = static_cast<double>(params.dt);
     if (!options.quiet) {
         log_info(fmt::format("{}: {} particles, dt {:.4g} s, speed of sound {:.4g} m/s, on {}", scene.name,
-                             initial.size(), dt, simulation.params().speed_of_sound, context.info().name));
+                             initial.size(), dt, params.speed_of_sound, context.info().name));
     }
 
     const auto stopped = [&] {
@@ -245,35 +268,41 @@ RunSummary run_scene(const gpu::Context& context, const Scene& scene, const RunO
         const double frame_time = frame / static_cast<double>(scene.time.frame_rate);
         const auto target = static_cast<std::uint64_t>(std::llround(frame_time / dt));
         Clock::time_point clock = Clock::now();
-        simulation.advance(static_cast<std::uint32_t>(target - simulation.step()));
+        if (simulation) {
+            simulation->advance(static_cast<std::uint32_t>(target - summary.steps));
+        }
+        summary.steps = target;
+        summary.time = static_cast<double>(target) * dt;
         const double simulate_ms = milliseconds_since(clock);
 
         clock = Clock::now();
-        const Image image = painter.paint(simulation.particles());
+        const Image image = painter.paint(simulation ? &simulation->particles() : nullptr);
         const double draw_ms = milliseconds_since(clock);
         write_png(frame_path(options, frame), image);
         if (video) {
             video->add(image);
         }
         if (options.particles || statistics_file) {
-            const ParticleSet particles = simulation.download();
+            const ParticleSet particles = simulation ? simulation->download() : initial;
             if (options.particles) {
                 write_ply(particles_path(options, frame), particles);
             }
             if (statistics_file) {
-                FrameStatistics statistics = measure(particles, simulation.params());
+                FrameStatistics statistics = measure(particles, params);
                 statistics.frame = frame;
-                statistics.time = simulation.time();
-                statistics.steps = simulation.step();
+                statistics.time = summary.time;
+                statistics.steps = summary.steps;
                 statistics.dt = dt;
-                const sim::NeighborStatistics neighbors = simulation.neighbor_statistics();
-                statistics.neighbors_mean = neighbors.mean;
-                if (neighbors.coincident > 0 && !warned_of_coincident) {
-                    log_warning(
-                        fmt::format("frame {}: {} pairs of particles lie on top of each other and do not push each "
-                                    "other apart (do fluids overlap?)",
-                                    frame, neighbors.coincident / 2));
-                    warned_of_coincident = true;
+                if (simulation) {
+                    const sim::NeighborStatistics neighbors = simulation->neighbor_statistics();
+                    statistics.neighbors_mean = neighbors.mean;
+                    if (neighbors.coincident > 0 && !warned_of_coincident) {
+                        log_warning(
+                            fmt::format("frame {}: {} pairs of particles lie on top of each other and do not push each "
+                                        "other apart (do fluids overlap?)",
+                                        frame, neighbors.coincident / 2));
+                        warned_of_coincident = true;
+                    }
                 }
                 statistics.simulate_ms = simulate_ms;
                 statistics.draw_ms = draw_ms;
@@ -281,14 +310,12 @@ RunSummary run_scene(const gpu::Context& context, const Scene& scene, const RunO
             }
         }
         ++summary.frames;
-        progress.advance(fmt::format("{:.3f} s", simulation.time()));
+        progress.advance(fmt::format("{:.3f} s", summary.time));
     }
     progress.finish();
     if (video && summary.frames > 0) { // a video of no frames is none
         video->finish();
     }
-    summary.steps = simulation.step();
-    summary.time = simulation.time();
     summary.seconds = milliseconds_since(start) * 1e-3;
     return summary;
 }

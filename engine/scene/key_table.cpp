@@ -331,6 +331,18 @@ std::vector<ColliderKey> make_collider_keys()
     });
 }
 
+std::vector<SurfaceKey> make_surface_keys()
+{
+    const auto k = [](auto... arguments) { return key<SurfaceBody>(arguments...); };
+    return with_shape_keys<SurfaceBody>("what it is; each shape has keys of its own", {
+        k("count", FIELD(count), "", Range{1, 16777216}, "of splats"),
+        choice<SurfaceBody>("method", FIELD(method), {{"random", SplatMethod::Random}, {"stratified", SplatMethod::Stratified}, {"blue-noise", SplatMethod::BlueNoise}},
+                            "how they are spread: independently at random; one in each of as many patches of equal area; or so that no two are close together"),
+        k("splat_radius", FIELD(splat_radius), "spacings", Range{0.01, 10}, "of a splat, a flat disc; a spacing is the square root of area / count; 1 closes a surface of blue noise, 2 one of random points"),
+        k("color", FIELD(color), "linear RGB", UNIT, "of all its splats"),
+    });
+}
+
 #undef SHAPE_FIELD
 #undef FIELD
 // clang-format on
@@ -352,6 +364,12 @@ std::span<const FluidKey> fluid_keys()
 std::span<const ColliderKey> collider_keys()
 {
     static const std::vector<ColliderKey> keys = make_collider_keys();
+    return keys;
+}
+
+std::span<const SurfaceKey> surface_keys()
+{
+    static const std::vector<SurfaceKey> keys = make_surface_keys();
     return keys;
 }
 

@@ -16,7 +16,8 @@ namespace meltpoint {
 /// default is what get() finds in a default-constructed owner.
 template <class Owner>
 struct Key {
-    std::string_view name;  ///< "physics.viscosity"; of a body ([[fluid]], [[collider]]) without the prefix: "velocity"
+    std::string_view
+        name; ///< "physics.viscosity"; of a body ([[fluid]], [[collider]], [[surface]]) without the prefix: "velocity"
     std::string_view shape; ///< of a body: the one shape that has this key, empty for all
     bool required = false;  ///< has no default
     std::string_view unit;  ///< empty when there is none
@@ -29,12 +30,14 @@ struct Key {
 using SceneKey = Key<Scene>;
 using FluidKey = Key<FluidBody>;
 using ColliderKey = Key<ColliderBody>;
+using SurfaceKey = Key<SurfaceBody>;
 
 /// In the order in which they are written. A body's first key is "shape"; the keys of a shape may only be used on a
 /// body that has it.
 std::span<const SceneKey> scene_keys();
 std::span<const FluidKey> fluid_keys();
 std::span<const ColliderKey> collider_keys();
+std::span<const SurfaceKey> surface_keys();
 
 /// Its name: "block", "sphere" or "mesh".
 std::string_view shape_name(const BodyShape& shape);
@@ -60,6 +63,7 @@ void for_each_body_list(AnyScene& scene, const Visit& visit)
 {
     visit(std::string_view("fluid"), scene.fluids, fluid_keys());
     visit(std::string_view("collider"), scene.colliders, collider_keys());
+    visit(std::string_view("surface"), scene.surfaces, surface_keys());
 }
 
 } // namespace meltpoint

@@ -89,6 +89,17 @@ struct ColliderBody {
     glm::vec3 color{0.55f, 0.50f, 0.44f}; ///< linear RGB
 };
 
+enum class SplatMethod { Random, Stratified, BlueNoise };
+
+/// A surface shown as splats: drawn, not simulated.
+struct SurfaceBody {
+    BodyShape shape;
+    std::uint32_t count = 20'000;                ///< of its splats
+    SplatMethod method = SplatMethod::BlueNoise; ///< how they are spread
+    float splat_radius = 1.0f;                   ///< in spacings, each sqrt(area / count)
+    glm::vec3 color{0.72f, 0.55f, 0.38f};        ///< linear RGB
+};
+
 enum class Projection { Perspective, Orthographic };
 
 struct CameraSettings {
@@ -125,6 +136,7 @@ struct Scene {
     TimeSettings time;
     std::vector<FluidBody> fluids;
     std::vector<ColliderBody> colliders;
+    std::vector<SurfaceBody> surfaces;
     CameraSettings camera;
     RenderSettings render;
 };

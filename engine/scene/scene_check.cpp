@@ -37,7 +37,8 @@ public:
         check_camera();
         check_render();
         check_fluids();
-        check_colliders();
+        check_plates("collider", scene_.colliders);
+        check_plates("surface", scene_.surfaces);
         check_materials();
     }
 
@@ -143,8 +144,8 @@ private:
 
     void check_fluids() const
     {
-        if (scene_.fluids.empty()) {
-            fail("fluid", "is missing: a scene has at least one [[fluid]]");
+        if (scene_.fluids.empty() && scene_.surfaces.empty()) {
+            fail("fluid", "is missing: a scene has at least one [[fluid]] or [[surface]]");
         }
         if (scene_.fluids.size() > MOST_BODIES) {
             fail("fluid", "is there {} times, but a scene has at most {} fluids", scene_.fluids.size(), MOST_BODIES);
@@ -155,16 +156,17 @@ private:
         }
     }
 
-    /// What of them sticks out of the domain is cut off; what is left is checked once it is sampled.
-    void check_colliders() const
+    /// Bodies whose blocks may be plates. Where they lie is free: what of a collider sticks out of the domain is cut
+    /// off, and what is left is checked once it is sampled.
+    template <class Body>
+    void check_plates(std::string_view name, const std::vector<Body>& bodies) const
     {
-        if (scene_.colliders.size() > MOST_BODIES) {
-            fail("collider", "is there {} times, but a scene has at most {} colliders", scene_.colliders.size(),
-                 MOST_BODIES);
+        if (bodies.size() > MOST_BODIES) {
+            fail(name, "is there {} times, but a scene has at most {} {}s", bodies.size(), MOST_BODIES, name);
         }
-        for (std::size_t i = 0; i < scene_.colliders.size(); ++i) {
-            if (const auto* block = std::get_if<BlockShape>(&scene_.colliders[i].shape)) {
-                check_plate(fmt::format("collider.{}.", i), *block);
+        for (std::size_t i = 0; i < bodies.size(); ++i) {
+            if (const auto* block = std::get_if<BlockShape>(&bodies[i].shape)) {
+                check_plate(fmt::format("{}.{}.", name, i), *block);
             }
         }
     }

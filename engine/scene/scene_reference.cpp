@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "scene/key_table.h"
+#include "scene/scene_file.h"
 
 namespace meltpoint {
 
@@ -11,21 +12,16 @@ namespace {
 constexpr std::string_view INTRODUCTION = R"(# Scenes
 
 A scene is a [TOML](https://toml.io) file: all that a run needs. `meltpoint render drop.toml` runs a file, `meltpoint render
-drop` the scene of this folder with that name, from anywhere. Start from a copy of one of these:
+drop` the scene of this folder with that name, from anywhere. Start from a copy of one of these; teapot_drop is the default:
 
-- [teapot_drop.toml](teapot_drop.toml): a teapot of fluid falls and splashes. The default.
-- [dam_break.toml](dam_break.toml): a column of fluid collapses.
-- [drop.toml](drop.toml): a ball of fluid falls into a pool.
-- [teapot_floor.toml](teapot_floor.toml): a teapot of fluid falls on a table and runs off.
-- [teapot_pour.toml](teapot_pour.toml): fluid is poured over a teapot of stone.
-- [benchmark_dam.toml](benchmark_dam.toml): a column of 32^3 particles collapses, to compare engines; `_20`, `_25`, `_40` and
-  `_50` for as many particles along an edge.
+)";
 
+constexpr std::string_view RULES = R"(
 Every key may be left out unless it is marked required. Quantities are in SI units, y is up, angles are in degrees. Where
 `"auto"` is allowed, the engine finds the value from the rest of the scene. Paths of meshes are relative to the scene's folder.
 
 `--set key=value` changes any key for one run, with the dotted name of the tables below and a TOML value:
-`--set physics.viscosity=0.1`, `--set domain.max=[1,2,1]`, `--set kernel=wendland`. Fluids and colliders count from 0:
+`--set physics.viscosity=0.1`, `--set domain.max=[1,2,1]`, `--set kernel=wendland`. Fluids, colliders and surfaces count from 0:
 `--set fluid.0.velocity=[0,1,0]`. Paths of meshes are then relative to the folder in which the command runs.
 
 This page is generated from the table of keys that also reads and checks scenes (engine/scene/key_table.cpp).
@@ -82,20 +78,29 @@ std::string body_rows(std::span<const Key<Body>> keys, std::string_view shape)
 
 std::string_view about(std::string_view list)
 {
-    return list == "fluid"
-               ? "Once for each body of fluid, at least one. Where fluids overlap, the first one in the file "
-                 "keeps its place. Here the keys of every fluid; then those of its shape."
-               : "Once for each solid that stands in the fluid's way, if any. What of it lies outside the "
-                 "domain is cut off. A block that is flat along one axis is a plate. A mesh may also be a scan: a file "
-                 "of points (.xyz, or .ply without faces). Here the keys of every "
-                 "collider; then those of its shape.";
+    if (list == "fluid") {
+        return "Once for each body of fluid. Where fluids overlap, the first one in the file keeps its place. Here the "
+               "keys of every fluid; then those of its shape.";
+    }
+    if (list == "collider") {
+        return "Once for each solid that stands in the fluid's way, if any. What of it lies outside the domain is cut "
+               "off. A block that is flat along one axis is a plate. A mesh may also be a scan: a file of points (.xyz, "
+               "or .ply without faces). Here the keys of every collider; then those of its shape.";
+    }
+    return "Once for each surface that is shown as splats, if any: it is drawn, not simulated, and fluid passes "
+           "through it. Plates and scans are allowed as for colliders. Here the keys of every surface; then those of "
+           "its shape.";
 }
 
 } // namespace
 
 std::string scene_reference_markdown()
 {
-    std::string text = std::string(INTRODUCTION) + "\n## Top level\n" + std::string(HEADER);
+    std::string text{INTRODUCTION};
+    for (const std::string& name : builtin_scene_names()) {
+        text += fmt::format("- [{0}.toml]({0}.toml): {1}\n", name, builtin_scene(name).description);
+    }
+    text += std::string(RULES) + "\n## Top level\n" + std::string(HEADER);
     std::string_view table;
     const Scene defaults;
     for (const SceneKey& key : scene_keys()) {

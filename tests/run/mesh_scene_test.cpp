@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include <fmt/ranges.h>
 #include <gtest/gtest.h>
 
 #include "core/error.h"
@@ -46,15 +47,14 @@ TEST(FindScene, KnowsTheBuiltInScenes)
 
 TEST(FindScene, SuggestsTheNearestName)
 {
+    const std::string all = fmt::format("{}", fmt::join(builtin_scene_names(), ", "));
     const std::string misspelled = refusal("teapot_dorp");
     EXPECT_TRUE(
         misspelled.starts_with("there is no scene or mesh \"teapot_dorp\": neither a file nor a built-in scene ("))
         << misspelled;
-    EXPECT_TRUE(misspelled.ends_with(
-        ", dam_break, drop, teapot_drop, teapot_floor, teapot_pour); did you mean \"teapot_drop\"?"))
-        << misspelled;
+    EXPECT_TRUE(misspelled.ends_with(all + "); did you mean \"teapot_drop\"?")) << misspelled;
     EXPECT_TRUE(refusal("teapot").ends_with("; did you mean \"builtin:teapot\"?")) << refusal("teapot");
-    EXPECT_TRUE(refusal("").ends_with(", dam_break, drop, teapot_drop, teapot_floor, teapot_pour)")) << refusal("");
+    EXPECT_TRUE(refusal("").ends_with(all + ")")) << refusal("");
 }
 
 TEST(FindScene, ATooLongNameIsBadInput)
