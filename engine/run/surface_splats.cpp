@@ -1,6 +1,7 @@
 #include "run/surface_splats.h"
 
 #include "core/error.h"
+#include "geometry/cloud_surface.h"
 #include "geometry/surface_sampling.h"
 #include "run/placed_mesh.h"
 
@@ -42,10 +43,10 @@ SurfaceSplats make_surface_splats(const Scene& scene, std::uint64_t limit)
     SurfaceSplats splats;
     for (std::size_t s = 0; s < scene.surfaces.size(); ++s) {
         const SurfaceBody& surface = scene.surfaces[s];
-        const TriangleMesh mesh = std::visit([](const auto& shape) { return placed_mesh(shape); }, surface.shape);
-        const SurfaceSamples samples = sample_surface(
-            mesh,
-            {.method = surface_method(surface.method), .amount = PointCount{surface.count}, .seed = scene.seed + s});
+        const SurfaceRequest request{
+            .method = surface_method(surface.method), .amount = PointCount{surface.count}, .seed = scene.seed + s};
+        const SurfaceSamples samples =
+            std::visit([&](const auto& each) { return sample_surface(each, request); }, placed_surface(surface.shape));
         const float radius = surface.splat_radius * static_cast<float>(samples.spacing);
         for (std::size_t i = 0; i < samples.cloud.size(); ++i) {
             splats.position_radius.emplace_back(samples.cloud.positions[i], radius);

@@ -84,7 +84,8 @@ std::string_view about(std::string_view list)
     }
     if (list == "collider") {
         return "Once for each solid that stands in the fluid's way, if any. What of it lies outside the domain is cut "
-               "off. A block that is flat along one axis is a plate. A mesh may also be a scan: a file of points (.xyz, "
+               "off. A block that is flat along one axis is a plate. A mesh may also be a scan: a file of points "
+               "(.xyz, "
                "or .ply without faces). Here the keys of every collider; then those of its shape.";
     }
     return "Once for each surface that is shown as splats, if any: it is drawn, not simulated, and fluid passes "
