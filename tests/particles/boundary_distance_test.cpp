@@ -33,10 +33,12 @@ double density_of_first_layer(std::uint32_t kernel, double h, double f, double z
     for (int x = -n; x <= n; ++x) {
         for (int y = -n; y <= n; ++y) {
             in_layer += shape(f * x, f * y, 0.0);
-            for (int i = 0; i < shifts * shifts; ++i) {
-                const double dx = (i % shifts + 0.5) / shifts;
-                const double dy = (i / shifts + 0.5) / shifts;
-                boundary += shape(f * (x + dx), f * (y + dy), z) / (shifts * shifts);
+            for (int i = 0; i < shifts; ++i) {
+                for (int j = 0; j < shifts; ++j) {
+                    const double dx = (i + 0.5) / shifts;
+                    const double dy = (j + 0.5) / shifts;
+                    boundary += shape(f * (x + dx), f * (y + dy), z) / (shifts * shifts);
+                }
             }
         }
     }
