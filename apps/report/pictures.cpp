@@ -118,8 +118,8 @@ std::string make_figures(const Workplace& workplace)
                      {"block_2d", {}, {{26, "block_2d.png", "figure 3, left: 2D, magenta below the rest density"}}},
                      {"block_3d", {}, {{26, "block_3d.png", "figure 3, right: 3D"}}},
                      {"splat_sphere", {}, {{0, "splat_sphere.png", "figure 4, splats on a sphere"}}},
-                     {"drop", {}, {{24, "drop.png", "figure 5, a drop throws up columns of liquid"}}},
-                     {"teapot_floor", {}, {{24, "teapot_floor.png", "figure 6, the teapot hits a floor"}}}});
+                     {"drop", {}, {{18, "drop.png", "figure 5, a drop throws up columns of liquid"}}},
+                     {"teapot_floor", {}, {{18, "teapot_floor.png", "figure 6, the teapot hits a floor"}}}});
 }
 
 } // namespace meltpoint::report
