@@ -91,14 +91,14 @@ void sample_cloud(const SampleRequest& request, PointCloud cloud, StageTimer& ti
     result.cloud_facts = surface.facts;
     result.facts.area = surface.area;
     std::optional<CloudSolid> solid;
-    if (request.volume || request.measure) {
+    if (request.volume) {
+        sample_inside(request, solid.emplace(surface), result);
+    } else if (request.measure) {
         solid.emplace(surface);
     }
-    if (request.volume) {
-        sample_inside(request, *solid, result);
-    } else if (request.amount || request.method) {
+    if (!request.volume && (request.amount || request.method)) {
         sample_on(request, surface, surface.cloud.size(), result);
-    } else {
+    } else if (!request.volume) {
         result.spacing = std::sqrt(surface.area / static_cast<double>(surface.cloud.size()));
         result.cloud = std::move(surface.cloud);
     }
