@@ -213,6 +213,19 @@ private:
     std::optional<render::Legend> legend_;
 };
 
+/// Warns of particles that lie on top of each other, once.
+double mean_neighbors(sim::Simulation& simulation, std::uint32_t frame, bool& warned_of_coincident)
+{
+    const sim::NeighborStatistics neighbors = simulation.neighbor_statistics();
+    if (neighbors.coincident > 0 && !warned_of_coincident) {
+        log_warning(fmt::format("frame {}: {} pairs of particles lie on top of each other and do not push each other "
+                                "apart (do fluids overlap?)",
+                                frame, neighbors.coincident / 2));
+        warned_of_coincident = true;
+    }
+    return neighbors.mean;
+}
+
 } // namespace
 
 RunSummary run_scene(const gpu::Context& context, const Scene& scene, const RunOptions& options)
@@ -294,15 +307,7 @@ RunSummary run_scene(const gpu::Context& context, const Scene& scene, const RunO
                 statistics.steps = summary.steps;
                 statistics.dt = dt;
                 if (simulation) {
-                    const sim::NeighborStatistics neighbors = simulation->neighbor_statistics();
-                    statistics.neighbors_mean = neighbors.mean;
-                    if (neighbors.coincident > 0 && !warned_of_coincident) {
-                        log_warning(
-                            fmt::format("frame {}: {} pairs of particles lie on top of each other and do not push each "
-                                        "other apart (do fluids overlap?)",
-                                        frame, neighbors.coincident / 2));
-                        warned_of_coincident = true;
-                    }
+                    statistics.neighbors_mean = mean_neighbors(*simulation, frame, warned_of_coincident);
                 }
                 statistics.simulate_ms = simulate_ms;
                 statistics.draw_ms = draw_ms;
