@@ -168,12 +168,7 @@ void add_bench(CLI::App& app, const GlobalOptions& /*global*/, int& exit_code)
         ->check(CLI::Range(1u, 16u));
     command->add_option("--scene", options->scene.scene, "Measures a scene instead of the block, as render takes it")
         ->type_name("F");
-    command
-        ->add_option("--device", options->scene.device,
-                     "Vulkan device, by index or part of its name (see meltpoint info) [best usable]")
-        ->type_name("NAME|INDEX");
-    command->add_flag("--validate", options->scene.validate,
-                      "Vulkan validation and synchronization validation; any warning or error ends in exit code 1");
+    add_device_options(*command, options->scene);
     command->add_option("--json", options->json, "Also writes the results, one object a row, to this file")
         ->type_name("F");
     command->callback([options, &exit_code] { exit_code = run_bench(*options); });

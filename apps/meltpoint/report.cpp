@@ -153,12 +153,7 @@ void add_report(CLI::App& app, const GlobalOptions& global, int& exit_code)
         ->type_name("NAME,...")
         ->delimiter(',');
     command->add_flag("--force", options->force, "Replaces an existing report.md");
-    command
-        ->add_option("--device", options->scene.device,
-                     "Vulkan device, by index or part of its name (see meltpoint info) [best usable]")
-        ->type_name("NAME|INDEX");
-    command->add_flag("--validate", options->scene.validate,
-                      "Vulkan validation and synchronization validation; any warning or error ends in exit code 1");
+    add_device_options(*command, options->scene);
     command->callback([options, &global, &exit_code] { exit_code = run_report(*options, global.quiet); });
 }
 

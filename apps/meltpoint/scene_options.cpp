@@ -6,6 +6,16 @@
 
 namespace meltpoint::program {
 
+void add_device_options(CLI::App& command, SceneOptions& options)
+{
+    command
+        .add_option("--device", options.device,
+                    "Vulkan device, by index or part of its name (see meltpoint info) [best usable]")
+        ->type_name("NAME|INDEX");
+    command.add_flag("--validate", options.validate,
+                     "Vulkan validation and synchronization validation; any warning or error ends in exit code 1");
+}
+
 void add_scene_options(CLI::App& command, SceneOptions& options)
 {
     command
@@ -25,12 +35,7 @@ void add_scene_options(CLI::App& command, SceneOptions& options)
             "A mesh (a file or builtin:NAME) that takes the place of every mesh of the scene, with its size and "
             "place")
         ->type_name("MESH");
-    command
-        .add_option("--device", options.device,
-                    "Vulkan device, by index or part of its name (see meltpoint info) [best usable]")
-        ->type_name("NAME|INDEX");
-    command.add_flag("--validate", options.validate,
-                     "Vulkan validation and synchronization validation; any warning or error ends in exit code 1");
+    add_device_options(command, options);
 }
 
 Scene load_scene(const SceneOptions& options)

@@ -19,6 +19,10 @@ struct SceneOptions {
     bool validate = false;
 };
 
+/// --device and --validate alone.
+void add_device_options(CLI::App& command, SceneOptions& options);
+
+/// All of them.
 void add_scene_options(CLI::App& command, SceneOptions& options);
 
 [[nodiscard]] Scene load_scene(const SceneOptions& options);
