@@ -43,7 +43,7 @@ struct Result {
 /// and takes medians over the portions.
 ///
 /// Milliseconds on software devices and of the yardstick are CPU time over the number of processors: what the wall
-/// clock shows when nothing else runs, and what a busy neighbor hardly changes. On GPUs they are wall time. The times
+/// clock shows when nothing else runs, and what a busy neighbor changes less. On GPUs they are wall time. The times
 /// of the passes come from the device's timestamps, of more steps after the measured ones; on software devices they are
 /// scaled to add up to the step.
 ///

@@ -64,7 +64,7 @@ std::string provenance(const Workplace& workplace)
 std::string make_conformance(const Workplace& workplace)
 {
     constexpr std::uint32_t steps = 10;
-    const Scene scene = builtin_scene("teapot_drop");
+    const Scene scene = builtin_scene("teapot_floor"); // it has fluid, walls and a collider
     const ParticleSet particles = make_particles(scene, sim::Simulation::particle_limit(workplace.context));
     const sim::SimulationSettings settings = fluid_settings(scene, particles).simulation;
     log_info(fmt::format("{}: {} particles against the CPU reference", scene.name, particles.size()));
@@ -85,11 +85,11 @@ std::string make_conformance(const Workplace& workplace)
     check_stop(workplace);
     add(conformance::compare_steps(workplace.context, particles, settings, steps), "from the start");
     if (!conforms) {
-        throw runtime_error("{} does not agree with the CPU reference: see meltpoint compare teapot_drop",
-                            workplace.context.info().name);
+        throw runtime_error("{} does not agree with the CPU reference: see meltpoint compare {}",
+                            workplace.context.info().name, scene.name);
     }
     return table({"pass", "state", "error", "bound"}, rows) +
-           fmt::format("\n`teapot_drop`, {} particles, as `meltpoint compare teapot_drop --steps {}` finds them. ",
+           fmt::format("\n`{0}`, {1} particles, as `meltpoint compare {0} --steps {2}` finds them. ", scene.name,
                        particles.size(), steps) +
            provenance(workplace);
 }
