@@ -368,9 +368,9 @@ mutation "yardstick: ghosts move along with what they mirror" \
     bench_tests 'Yardstick.StepsAreTheReferences'
 mutation "yardstick: rows end one cell too early" \
     apps/bench/yardstick_kernels.cpp \
-    'const std::uint32_t last = grid.cell_start[cell + 3];
+    'const std::size_t last = grid.cell_start[cell + 3];
 #pragma omp simd reduction(+ : sum)' \
-    'const std::uint32_t last = grid.cell_start[cell + 2];
+    'const std::size_t last = grid.cell_start[cell + 2];
 #pragma omp simd reduction(+ : sum)' \
     bench_tests 'Yardstick.DensityIsTheReferences'
 

@@ -1,5 +1,7 @@
 #include "yardstick_kernels.h"
 
+#include <cstddef>
+
 namespace meltpoint::bench::kernels {
 
 extern const char* const required_features[] = {
@@ -34,6 +36,9 @@ namespace {
 
 constexpr float tiny = 1e-30f;
 
+// The loops over candidates count in std::size_t: of a 32-bit index, which may wrap, g++ does not see that its
+// addresses follow each other, and vectorizes with every element loaded on its own, at two thirds of the speed.
+
 template <bool wendland>
 inline float density_shape(float r2, float inverse_h)
 {
@@ -65,10 +70,10 @@ void density_loop(const Fluid& fluid, const Grid& grid, const Arrays& arrays, co
         for (int row = 0; row < 9; ++row) {
             const std::uint32_t cell = grid.cell[i] + static_cast<std::uint32_t>(row / 3) * grid.layer - grid.layer +
                                        static_cast<std::uint32_t>(row % 3) * grid.row - grid.row;
-            const std::uint32_t first = grid.cell_start[cell - 2];
-            const std::uint32_t last = grid.cell_start[cell + 3];
+            const std::size_t first = grid.cell_start[cell - 2];
+            const std::size_t last = grid.cell_start[cell + 3];
 #pragma omp simd reduction(+ : sum)
-            for (std::uint32_t j = first; j < last; ++j) {
+            for (std::size_t j = first; j < last; ++j) {
                 const float dx = xi - x[j];
                 const float dy = yi - y[j];
                 const float dz = zi - z[j];
@@ -110,10 +115,10 @@ void force_loop(const Fluid& fluid, const Grid& grid, const Arrays& arrays, cons
         for (int row = 0; row < 9; ++row) {
             const std::uint32_t cell = grid.cell[i] + static_cast<std::uint32_t>(row / 3) * grid.layer - grid.layer +
                                        static_cast<std::uint32_t>(row % 3) * grid.row - grid.row;
-            const std::uint32_t first = grid.cell_start[cell - 2];
-            const std::uint32_t last = grid.cell_start[cell + 3];
+            const std::size_t first = grid.cell_start[cell - 2];
+            const std::size_t last = grid.cell_start[cell + 3];
 #pragma omp simd reduction(+ : fx, fy, fz)
-            for (std::uint32_t j = first; j < last; ++j) {
+            for (std::size_t j = first; j < last; ++j) {
                 const float dx = xi - x[j];
                 const float dy = yi - y[j];
                 const float dz = zi - z[j];
