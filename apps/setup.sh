@@ -12,7 +12,6 @@ required_packages=(
     ninja-build                # what the presets build with
     glslang-tools              # glslangValidator: shaders to SPIR-V
     libvulkan-dev              # Vulkan headers and loader
-    libvulkan-volk-dev         # Vulkan entry points loaded per device
     libspirv-cross-c-shared-dev  # reflection of compiled shaders (it holds the C++ library too)
     mesa-vulkan-drivers        # lavapipe, the Vulkan device of machines without a GPU
     vulkan-validationlayers    # render --validate, and the tests that must see no message
@@ -35,6 +34,7 @@ required_packages=(
 check_packages=(
     clang-16                   # the second compiler
     clang-tidy-16              # static analysis
+    doxygen                    # the reference of the public headers
     gmsh                       # opens what `meltpoint sample` writes (tests/apps/readers.py)
     python3-vtk9               # the same, with what ParaView reads with
 )

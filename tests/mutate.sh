@@ -354,6 +354,35 @@ mutation "faults: the largest id is reported" \
     'atomicMax(status.offender' \
     conformance_tests 'Steps.ANotANumberIsReportedWithTheSmallestId'
 
+# --- a host's device ----------------------------------------------------------------------------------------------------
+
+mutation "host: the engine does not wait for what the host has submitted" \
+    engine/gpu/commands.cpp \
+    '    scopes_.clear();
+    if (context_->adopted()) {
+        order_with_host();
+    }' \
+    '    scopes_.clear();' \
+    conformance_tests 'HostDevice.TheEngineWrites*'
+mutation "host: what the host submits does not wait for the engine" \
+    engine/gpu/commands.cpp \
+    '    flush_barriers();
+    if (context_->adopted()) {
+        order_with_host();
+    }' \
+    '    flush_barriers();' \
+    conformance_tests 'HostDevice.TheHostSees*'
+mutation "host: the queue's mutex is not locked" \
+    engine/gpu/context.cpp \
+    'lock = std::unique_lock(*queue_mutex_);' \
+    '' \
+    conformance_tests 'HostDevice.EverySubmission*'
+mutation "host: features count as enabled that are not" \
+    engine/gpu/device_requirements.cpp \
+    'if (features.v12.*feature.member == VK_FALSE) {' \
+    'if (features.v12.*feature.member == VK_FALSE && false) {' \
+    conformance_tests 'HostDevice.WhatIsNotEnabledIsNamed'
+
 # --- the yardstick of the benchmark --------------------------------------------------------------------------------------
 
 mutation "yardstick: no images of images" \

@@ -89,7 +89,7 @@ void print_device(const nlohmann::ordered_json& device)
 int info(const InfoOptions& options)
 {
     const gpu::Instance instance(false);
-    const std::vector<gpu::DeviceInfo> devices = gpu::list_devices(instance.handle());
+    const std::vector<gpu::DeviceInfo> devices = gpu::list_devices(instance.functions());
     std::string refusal;
     std::uint32_t chosen = ~0u;
     try {
@@ -102,7 +102,7 @@ int info(const InfoOptions& options)
     }
 
     nlohmann::ordered_json document{{"meltpoint", MELTPOINT_VERSION},
-                                    {"vulkan_loader", version_text(volkGetInstanceVersion())},
+                                    {"vulkan_loader", version_text(gpu::Instance::loader_version())},
                                     {"vulkan_headers", version_text(VK_HEADER_VERSION_COMPLETE)},
                                     {"validation_layer", gpu::Instance::validation_layer_installed()},
                                     {"builtin_scenes", builtin_scene_names()},

@@ -18,9 +18,9 @@ enum class ErrorKind {
 /// The one exception type of the engine. what() is one clear sentence for the user, without a trailing period.
 class Error : public std::runtime_error {
 public:
-    Error(ErrorKind kind, const std::string& message) : std::runtime_error(message), kind_(kind) {}
+    Error(ErrorKind kind, const std::string& message) : std::runtime_error(message), kind_(kind) {} ///< one sentence
 
-    [[nodiscard]] ErrorKind kind() const noexcept { return kind_; }
+    [[nodiscard]] ErrorKind kind() const noexcept { return kind_; } ///< who can mend it
 
 private:
     ErrorKind kind_;

@@ -21,15 +21,15 @@ struct CellGrid {
     std::optional<std::uint64_t> jitter_seed;        ///< with a single point a cell
     bool mirrored = false;                           ///< the jitter's: points on the other side of their cells
 
-    [[nodiscard]] std::size_t size() const { return std::size_t{count.x} * count.y * count.z; }
-    [[nodiscard]] std::size_t index(const glm::uvec3& cell) const
+    [[nodiscard]] std::size_t size() const { return std::size_t{count.x} * count.y * count.z; } ///< cells
+    [[nodiscard]] std::size_t index(const glm::uvec3& cell) const                               ///< a cell's number
     {
         return cell.x + std::size_t{count.x} * (cell.y + std::size_t{count.y} * cell.z);
     }
 
     /// Rows along x: cells of the same y and z.
     [[nodiscard]] std::size_t rows() const { return std::size_t{count.y} * count.z; }
-    [[nodiscard]] glm::uvec3 row_begin(std::size_t row) const { return {0, row % count.y, row / count.y}; }
+    [[nodiscard]] glm::uvec3 row_begin(std::size_t row) const { return {0, row % count.y, row / count.y}; } ///< 1st
 
     /// y and z of point `number` in all cells of a row, in cells from the origin.
     [[nodiscard]] glm::dvec2 row_place(std::size_t row, std::size_t number = 0) const;

@@ -20,7 +20,7 @@ struct PointCloud {
     std::vector<glm::vec2> barycentric;
     std::vector<glm::u8vec3> colors; ///< sRGB; empty where the source has none
 
-    [[nodiscard]] std::size_t size() const { return positions.size(); }
+    [[nodiscard]] std::size_t size() const { return positions.size(); } ///< points
 };
 
 } // namespace meltpoint

@@ -22,6 +22,7 @@ public:
     /// m^3, 0 where nothing is inside. Where it has to be measured, the first call is the costly one.
     [[nodiscard]] virtual double volume() const = 0;
 
+    /// Whether a point (m) lies inside; on the surface, either may be the answer.
     [[nodiscard]] virtual bool contains(const glm::dvec3& point) const = 0;
 
     /// The points of a grid that the solid contains; some solids can tell more cheaply than point by point.
@@ -31,16 +32,19 @@ public:
 /// An axis-aligned box.
 class BoxSolid final : public Solid {
 public:
+    /// The box in m.
     explicit BoxSolid(const Aabb& box) : box_(box) {}
 
     [[nodiscard]] Aabb bounds() const override { return box_; }
     [[nodiscard]] double volume() const override;
+    /// @copydoc Solid::contains
     [[nodiscard]] bool contains(const glm::dvec3& point) const override;
 
 private:
     Aabb box_;
 };
 
+/// A ball.
 class BallSolid final : public Solid {
 public:
     /// Radius in m.
@@ -48,6 +52,7 @@ public:
 
     [[nodiscard]] Aabb bounds() const override;
     [[nodiscard]] double volume() const override;
+    /// @copydoc Solid::contains
     [[nodiscard]] bool contains(const glm::dvec3& point) const override;
 
 private:

@@ -16,12 +16,14 @@ enum class SurfaceMethod {
     BlueNoise,  ///< no two points close together, no gaps: the fewest points for the same coverage
 };
 
+/// Which points to take from a surface.
 struct SurfaceRequest {
     SurfaceMethod method = SurfaceMethod::Random;
     SampleAmount amount = PointCount{};
     std::uint64_t seed = 1;
 };
 
+/// Points taken from a surface.
 struct SurfaceSamples {
     PointCloud cloud;
     double area = 0.0;    ///< A of the surface, m^2

@@ -21,6 +21,7 @@ enum class Lattice {
     BlueNoise, ///< no lattice: no two points close together, no gaps, no direction preferred
 };
 
+/// Which points to fill a solid with.
 struct VolumeRequest {
     Lattice lattice = Lattice::Cubic;
     SampleAmount amount = PointCount{};

@@ -37,14 +37,20 @@ public:
     /// With a format other than VK_FORMAT_UNDEFINED, shaders may also read it as a texel buffer of that format.
     Buffer(const Context& context, VkDeviceSize bytes, MemoryUse use, const std::string& name, VkFormat texels);
     ~Buffer();
+    /// Leaves the other one empty.
     Buffer(Buffer&& other) noexcept;
+    /// Frees what it held and leaves the other one empty.
     Buffer& operator=(Buffer&& other) noexcept;
 
+    /// Owned by this object.
     [[nodiscard]] VkBuffer handle() const { return buffer_; }
     /// As a texel buffer; VK_NULL_HANDLE for buffers made without a format.
     [[nodiscard]] VkBufferView texels() const { return texels_; }
+    /// Bytes.
     [[nodiscard]] VkDeviceSize size() const { return size_; }
+    /// What it was made for.
     [[nodiscard]] MemoryUse use() const { return use_; }
+    /// As validation messages and GPU debuggers show it.
     [[nodiscard]] const std::string& name() const { return name_; }
 
     /// Host view of an Upload or Readback buffer.

@@ -44,7 +44,7 @@ bool allows(ShaderAccess shader, Access declared)
 Commands::Commands(const Context& context, std::uint32_t max_scopes)
     : context_(&context), max_scopes_(context.info().timestamp_bits > 0 ? max_scopes : 0)
 {
-    const VolkDeviceTable& vk = context.vk;
+    const DeviceFunctions& vk = context.vk;
     VkCommandPoolCreateInfo pool{VK_STRUCTURE_TYPE_COMMAND_POOL_CREATE_INFO};
     pool.queueFamilyIndex = context.info().queue_family;
     check(vk.vkCreateCommandPool(context.device(), &pool, nullptr, &pool_), "creating a command pool");
@@ -65,7 +65,7 @@ Commands::Commands(const Context& context, std::uint32_t max_scopes)
 
 Commands::~Commands()
 {
-    const VolkDeviceTable& vk = context_->vk;
+    const DeviceFunctions& vk = context_->vk;
     if (submitted_) {
         vk.vkWaitForFences(context_->device(), 1, &fence_, VK_TRUE, UINT64_MAX); // a lost device returns at once
     }
@@ -76,12 +76,15 @@ Commands::~Commands()
 
 void Commands::begin()
 {
-    const VolkDeviceTable& vk = context_->vk;
+    const DeviceFunctions& vk = context_->vk;
     check(vk.vkResetCommandPool(context_->device(), pool_, 0), "resetting a command pool");
     VkCommandBufferBeginInfo info{VK_STRUCTURE_TYPE_COMMAND_BUFFER_BEGIN_INFO};
     info.flags = VK_COMMAND_BUFFER_USAGE_ONE_TIME_SUBMIT_BIT;
     check(vk.vkBeginCommandBuffer(buffer_, &info), "beginning a command buffer");
     scopes_.clear();
+    if (context_->adopted()) {
+        order_with_host();
+    }
     if (max_scopes_ > 0) {
         vk.vkCmdResetQueryPool(buffer_, queries_, 0, 2 * max_scopes_);
     }
@@ -89,7 +92,7 @@ void Commands::begin()
 
 void Commands::submit()
 {
-    const VolkDeviceTable& vk = context_->vk;
+    const DeviceFunctions& vk = context_->vk;
     if (host_reads_) {
         pending_.srcStageMask |= VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT;
         pending_.srcAccessMask |= VK_ACCESS_2_MEMORY_WRITE_BIT;
@@ -98,6 +101,9 @@ void Commands::submit()
         host_reads_ = false;
     }
     flush_barriers();
+    if (context_->adopted()) {
+        order_with_host();
+    }
     check(vk.vkEndCommandBuffer(buffer_), "ending a command buffer");
 
     VkCommandBufferSubmitInfo command{VK_STRUCTURE_TYPE_COMMAND_BUFFER_SUBMIT_INFO};
@@ -105,16 +111,29 @@ void Commands::submit()
     VkSubmitInfo2 info{VK_STRUCTURE_TYPE_SUBMIT_INFO_2};
     info.commandBufferInfoCount = 1;
     info.pCommandBufferInfos = &command;
-    check(vk.vkQueueSubmit2(context_->queue(), 1, &info, fence_), "submitting work to the device");
+    check(context_->submit(info, fence_), "submitting work to the device");
     submitted_ = true;
 }
 
 void Commands::wait()
 {
-    const VolkDeviceTable& vk = context_->vk;
+    const DeviceFunctions& vk = context_->vk;
     check(vk.vkWaitForFences(context_->device(), 1, &fence_, VK_TRUE, UINT64_MAX), "waiting for the device");
     check(vk.vkResetFences(context_->device(), 1, &fence_), "resetting a fence");
     submitted_ = false;
+}
+
+void Commands::order_with_host()
+{
+    VkMemoryBarrier2 all{VK_STRUCTURE_TYPE_MEMORY_BARRIER_2};
+    all.srcStageMask = VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT;
+    all.srcAccessMask = VK_ACCESS_2_MEMORY_WRITE_BIT;
+    all.dstStageMask = VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT;
+    all.dstAccessMask = VK_ACCESS_2_MEMORY_READ_BIT | VK_ACCESS_2_MEMORY_WRITE_BIT;
+    VkDependencyInfo info{VK_STRUCTURE_TYPE_DEPENDENCY_INFO};
+    info.memoryBarrierCount = 1;
+    info.pMemoryBarriers = &all;
+    context_->vk.vkCmdPipelineBarrier2(buffer_, &info);
 }
 
 void Commands::use(const Buffer& buffer, VkPipelineStageFlags2 stages, VkAccessFlags2 access, bool writes)
@@ -205,7 +224,7 @@ void Commands::bind(const Kernel& kernel, std::span<const std::byte> push, std::
         views[i] = binding.buffer->texels();
         writes[i].pTexelBufferView = &views[i];
     }
-    const VolkDeviceTable& vk = context_->vk;
+    const DeviceFunctions& vk = context_->vk;
     vk.vkCmdBindPipeline(buffer_, VK_PIPELINE_BIND_POINT_COMPUTE, kernel.pipeline());
     vk.vkCmdPushDescriptorSetKHR(buffer_, VK_PIPELINE_BIND_POINT_COMPUTE, kernel.layout(), 0,
                                  static_cast<std::uint32_t>(bindings.size()), writes.data());
@@ -259,10 +278,10 @@ void Commands::copy(const Buffer& source, const Buffer& target, VkDeviceSize byt
 
 std::uint32_t Commands::begin_scope(const char* name)
 {
-    if (vkCmdBeginDebugUtilsLabelEXT != nullptr) {
+    if (const auto begin_label = context_->instance_functions().vkCmdBeginDebugUtilsLabelEXT) {
         VkDebugUtilsLabelEXT label{VK_STRUCTURE_TYPE_DEBUG_UTILS_LABEL_EXT};
         label.pLabelName = name;
-        vkCmdBeginDebugUtilsLabelEXT(buffer_, &label);
+        begin_label(buffer_, &label);
     }
     if (scopes_.size() >= max_scopes_) {
         return no_scope;
@@ -278,8 +297,8 @@ void Commands::end_scope(std::uint32_t scope)
     if (scope != no_scope) {
         context_->vk.vkCmdWriteTimestamp2(buffer_, VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT, queries_, 2 * scope + 1);
     }
-    if (vkCmdEndDebugUtilsLabelEXT != nullptr) {
-        vkCmdEndDebugUtilsLabelEXT(buffer_);
+    if (const auto end_label = context_->instance_functions().vkCmdEndDebugUtilsLabelEXT) {
+        end_label(buffer_);
     }
 }
 

@@ -36,6 +36,7 @@ struct Binding {
 /// For dispatches of shaders without push constants.
 struct NoPush {};
 
+/// How long the scopes of one name took.
 struct Timing {
     std::string name;
     double milliseconds = 0.0; ///< on the device's clock, summed over the scopes of this name
@@ -68,6 +69,7 @@ public:
         dispatch_bytes(kernel, invocations, std::as_bytes(std::span<const Push, 1>(&push, 1)),
                        {bindings.begin(), bindings.size()});
     }
+    /// The same without push constants.
     void dispatch(const Kernel& kernel, std::uint32_t invocations, NoPush /*push*/,
                   std::initializer_list<Binding> bindings)
     {
@@ -82,6 +84,7 @@ public:
         dispatch_indirect_bytes(kernel, arguments, offset, std::as_bytes(std::span<const Push, 1>(&push, 1)),
                                 {bindings.begin(), bindings.size()});
     }
+    /// The same without push constants.
     void dispatch_indirect(const Kernel& kernel, const Buffer& arguments, VkDeviceSize offset, NoPush /*push*/,
                            std::initializer_list<Binding> bindings)
     {
@@ -90,6 +93,7 @@ public:
 
     /// Sets every 32-bit word of the first `bytes` bytes (all by default).
     void fill(const Buffer& buffer, std::uint32_t word, VkDeviceSize bytes = VK_WHOLE_SIZE);
+    /// Copies `bytes` bytes from one buffer to another.
     void copy(const Buffer& source, const Buffer& target, VkDeviceSize bytes, VkDeviceSize source_offset = 0,
               VkDeviceSize target_offset = 0);
 
@@ -104,7 +108,9 @@ public:
     /// it.
     void suppress_next_barrier() { suppress_next_barrier_ = true; }
 
+    /// Where a caller records commands of its own; use() and flush_barriers() come before them.
     [[nodiscard]] VkCommandBuffer handle() const { return buffer_; }
+    /// What it was made for.
     [[nodiscard]] const Context& context() const { return *context_; }
 
     /// Device times of the scopes of the last finished submission, in order of first appearance; empty without
@@ -119,6 +125,9 @@ private:
     void dispatch_indirect_bytes(const Kernel& kernel, const Buffer& arguments, VkDeviceSize offset,
                                  std::span<const std::byte> push, std::span<const Binding> bindings);
     void bind(const Kernel& kernel, std::span<const std::byte> push, std::span<const Binding> bindings);
+    /// In a host's device, before the first and after the last command: whatever the host has submitted or will submit
+    /// to the queue comes before or after these commands (see Context).
+    void order_with_host();
     std::uint32_t begin_scope(const char* name);
     void end_scope(std::uint32_t scope);
 
@@ -139,6 +148,7 @@ private:
 /// Names a stretch of commands for debuggers and, where Commands takes timestamps, measures it.
 class Scope {
 public:
+    /// Begins here and ends with the object.
     Scope(Commands& commands, const char* name) : commands_(commands), scope_(commands.begin_scope(name)) {}
     ~Scope() { commands_.end_scope(scope_); }
     Scope(const Scope&) = delete;

@@ -3,50 +3,38 @@
 #include <algorithm>
 #include <cctype>
 #include <charconv>
-#include <cstring>
 #include <optional>
 #include <utility>
 
 #include <fmt/ranges.h>
 
 #include "core/error.h"
+#include "gpu/device_requirements.h"
 
 namespace meltpoint::gpu {
 
 namespace {
 
-bool extension_supported(VkPhysicalDevice device, const char* name)
-{
-    std::uint32_t count = 0;
-    check(vkEnumerateDeviceExtensionProperties(device, nullptr, &count, nullptr), "listing the device extensions");
-    std::vector<VkExtensionProperties> extensions(count);
-    check(vkEnumerateDeviceExtensionProperties(device, nullptr, &count, extensions.data()),
-          "listing the device extensions");
-    return std::any_of(extensions.begin(), extensions.end(), [name](const VkExtensionProperties& extension) {
-        return std::strcmp(static_cast<const char*>(extension.extensionName), name) == 0;
-    });
-}
-
 /// Index and timestamp bits of the first family with graphics and compute (and so transfer).
-std::optional<std::pair<std::uint32_t, std::uint32_t>> find_queue_family(VkPhysicalDevice device)
+std::optional<std::pair<std::uint32_t, std::uint32_t>> find_queue_family(const InstanceFunctions& vk,
+                                                                         VkPhysicalDevice device)
 {
     std::uint32_t count = 0;
-    vkGetPhysicalDeviceQueueFamilyProperties(device, &count, nullptr);
+    vk.vkGetPhysicalDeviceQueueFamilyProperties(device, &count, nullptr);
     std::vector<VkQueueFamilyProperties> families(count);
-    vkGetPhysicalDeviceQueueFamilyProperties(device, &count, families.data());
-    constexpr VkQueueFlags wanted = VK_QUEUE_GRAPHICS_BIT | VK_QUEUE_COMPUTE_BIT;
+    vk.vkGetPhysicalDeviceQueueFamilyProperties(device, &count, families.data());
     for (std::uint32_t i = 0; i < count; ++i) {
-        if ((families[i].queueFlags & wanted) == wanted) {
+        if ((families[i].queueFlags & required_queue_flags) == required_queue_flags) {
             return std::pair{i, families[i].timestampValidBits};
         }
     }
     return std::nullopt;
 }
 
-std::uint64_t largest_device_heap(VkPhysicalDevice device)
+std::uint64_t largest_device_heap(const InstanceFunctions& vk, VkPhysicalDevice device)
 {
     VkPhysicalDeviceMemoryProperties memory{};
-    vkGetPhysicalDeviceMemoryProperties(device, &memory);
+    vk.vkGetPhysicalDeviceMemoryProperties(device, &memory);
     std::uint64_t largest = 0;
     for (std::uint32_t i = 0; i < memory.memoryHeapCount; ++i) {
         if ((memory.memoryHeaps[i].flags & VK_MEMORY_HEAP_DEVICE_LOCAL_BIT) != 0) {
@@ -56,10 +44,10 @@ std::uint64_t largest_device_heap(VkPhysicalDevice device)
     return largest;
 }
 
-DeviceInfo describe_device(std::uint32_t index, VkPhysicalDevice device)
+DeviceInfo describe_device(const InstanceFunctions& vk, std::uint32_t index, VkPhysicalDevice device)
 {
     VkPhysicalDeviceProperties base{};
-    vkGetPhysicalDeviceProperties(device, &base);
+    vk.vkGetPhysicalDeviceProperties(device, &base);
 
     DeviceInfo info;
     info.index = index;
@@ -68,17 +56,17 @@ DeviceInfo describe_device(std::uint32_t index, VkPhysicalDevice device)
     info.api_version = base.apiVersion;
     info.type = base.deviceType;
     info.limits = base.limits;
-    info.memory_bytes = largest_device_heap(device);
+    info.memory_bytes = largest_device_heap(vk, device);
 
-    if (const auto family = find_queue_family(device)) {
+    if (const auto family = find_queue_family(vk, device)) {
         info.queue_family = family->first;
         info.timestamp_bits = family->second;
     } else {
         info.missing.emplace_back("a queue with graphics and compute");
     }
-    if (base.apiVersion < VK_API_VERSION_1_3) {
-        info.missing.push_back(fmt::format("Vulkan 1.3 (it has {}.{})", VK_API_VERSION_MAJOR(base.apiVersion),
-                                           VK_API_VERSION_MINOR(base.apiVersion)));
+    const std::vector<std::string> missing = missing_support(vk, device);
+    info.missing.insert(info.missing.end(), missing.begin(), missing.end());
+    if (base.apiVersion < required_api_version) {
         return info; // such a device does not know the structs below
     }
 
@@ -86,20 +74,10 @@ DeviceInfo describe_device(std::uint32_t index, VkPhysicalDevice device)
     VkPhysicalDeviceVulkan11Properties properties11{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_1_PROPERTIES,
                                                     &properties12};
     VkPhysicalDeviceProperties2 properties{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_PROPERTIES_2, &properties11};
-    vkGetPhysicalDeviceProperties2(device, &properties);
+    vk.vkGetPhysicalDeviceProperties2(device, &properties);
     info.subgroup_size = properties11.subgroupSize;
     info.driver = fmt::format("{} {}", static_cast<const char*>(properties12.driverName),
                               static_cast<const char*>(properties12.driverInfo));
-
-    VkPhysicalDeviceVulkan12Features features12{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_2_FEATURES};
-    VkPhysicalDeviceFeatures2 features{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_FEATURES_2, &features12};
-    vkGetPhysicalDeviceFeatures2(device, &features);
-    if (features12.scalarBlockLayout == VK_FALSE) {
-        info.missing.emplace_back("scalarBlockLayout");
-    }
-    if (!extension_supported(device, VK_KHR_PUSH_DESCRIPTOR_EXTENSION_NAME)) {
-        info.missing.emplace_back(VK_KHR_PUSH_DESCRIPTOR_EXTENSION_NAME);
-    }
     return info;
 }
 
@@ -163,15 +141,15 @@ const DeviceInfo& find_by_wish(const std::vector<DeviceInfo>& devices, const std
 
 } // namespace
 
-std::vector<DeviceInfo> list_devices(VkInstance instance)
+std::vector<DeviceInfo> list_devices(const InstanceFunctions& vk)
 {
     std::uint32_t count = 0;
-    check(vkEnumeratePhysicalDevices(instance, &count, nullptr), "listing the Vulkan devices");
+    check(vk.vkEnumeratePhysicalDevices(vk.instance, &count, nullptr), "listing the Vulkan devices");
     std::vector<VkPhysicalDevice> handles(count);
-    check(vkEnumeratePhysicalDevices(instance, &count, handles.data()), "listing the Vulkan devices");
+    check(vk.vkEnumeratePhysicalDevices(vk.instance, &count, handles.data()), "listing the Vulkan devices");
     std::vector<DeviceInfo> devices;
     for (std::uint32_t i = 0; i < count; ++i) {
-        devices.push_back(describe_device(i, handles[i]));
+        devices.push_back(describe_device(vk, i, handles[i]));
     }
     return devices;
 }

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "gpu/vulkan.h"
+#include "gpu/functions.h"
 
 namespace meltpoint::gpu {
 
@@ -23,13 +23,14 @@ struct DeviceInfo {
     std::uint32_t timestamp_bits = 0; ///< of that family; 0 when the queue has no timestamps
     std::vector<std::string> missing; ///< what of the baseline it lacks; empty for a usable device
 
+    /// Lacks nothing of the baseline.
     [[nodiscard]] bool usable() const { return missing.empty(); }
     /// Runs shaders on the CPU (lavapipe): some passes choose another tile size there.
     [[nodiscard]] bool software() const { return type == VK_PHYSICAL_DEVICE_TYPE_CPU; }
 };
 
-/// All physical devices in the loader's order.
-[[nodiscard]] std::vector<DeviceInfo> list_devices(VkInstance instance);
+/// All physical devices of an instance in the loader's order.
+[[nodiscard]] std::vector<DeviceInfo> list_devices(const InstanceFunctions& vk);
 
 /// The device that wish names: an index, or a part of the name whatever its case; an empty wish takes the best usable
 /// one (discrete, integrated, virtual, software). Throws Input when nothing or more than one matches, Device when the

@@ -32,8 +32,10 @@ struct Targets {
 
 /// A buffer or an image that the shaders of a draw read.
 struct DrawBinding {
+    /// A storage buffer.
     DrawBinding(const Buffer& read) : buffer(&read) {} // NOLINT(google-explicit-constructor): lists read well
-    DrawBinding(const Image& read) : image(&read) {}   // NOLINT(google-explicit-constructor)
+    /// An image, sampled.
+    DrawBinding(const Image& read) : image(&read) {} // NOLINT(google-explicit-constructor)
 
     const Buffer* buffer = nullptr;
     const Image* image = nullptr;

@@ -24,15 +24,23 @@ struct GraphicsPipelineInfo {
 class GraphicsPipeline {
 public:
     GraphicsPipeline() = default;
+    /// Compiles it. Throws std::logic_error for shaders that the engine cannot bind (reflect), Device when that fails.
     GraphicsPipeline(const Context& context, std::string name, const GraphicsPipelineInfo& info);
     ~GraphicsPipeline();
+    /// Leaves the other one empty.
     GraphicsPipeline(GraphicsPipeline&& other) noexcept;
+    /// Frees what it held and leaves the other one empty.
     GraphicsPipeline& operator=(GraphicsPipeline&& other) noexcept;
 
+    /// Owned by this object.
     [[nodiscard]] VkPipeline pipeline() const { return pipeline_; }
+    /// One set of push descriptors, one range of push constants.
     [[nodiscard]] VkPipelineLayout layout() const { return layout_; }
+    /// Nearest texel, clamped to the edge.
     [[nodiscard]] VkSampler sampler() const { return sampler_; }
+    /// The union of the two shaders' bindings.
     [[nodiscard]] const ShaderInterface& shader() const { return shader_; }
+    /// As error messages show it.
     [[nodiscard]] const std::string& name() const { return name_; }
 
 private:

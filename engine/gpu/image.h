@@ -32,14 +32,22 @@ public:
     Image(const Context& context, std::uint32_t width, std::uint32_t height, VkFormat format, VkImageUsageFlags usage,
           const std::string& name);
     ~Image();
+    /// Leaves the other one empty.
     Image(Image&& other) noexcept;
+    /// Frees what it held and leaves the other one empty.
     Image& operator=(Image&& other) noexcept;
 
+    /// Owned by this object.
     [[nodiscard]] VkImage handle() const { return image_; }
+    /// Of the whole image.
     [[nodiscard]] VkImageView view() const { return view_; }
+    /// Of a texel.
     [[nodiscard]] VkFormat format() const { return format_; }
+    /// Width and height in texels.
     [[nodiscard]] VkExtent2D extent() const { return extent_; }
+    /// Depth or color, as the format has it.
     [[nodiscard]] VkImageAspectFlags aspect() const;
+    /// As validation messages and GPU debuggers show it.
     [[nodiscard]] const std::string& name() const { return name_; }
 
     /// Bookkeeping of use_image; not part of the image's value.

@@ -5,6 +5,7 @@
 #include <cstring>
 
 #include "core/error.h"
+#include "gpu/device_requirements.h"
 
 namespace meltpoint::gpu {
 
@@ -20,24 +21,27 @@ VKAPI_ATTR VkBool32 VKAPI_CALL on_validation_message(VkDebugUtilsMessageSeverity
     return VK_FALSE;
 }
 
-bool debug_utils_supported()
+bool debug_utils_supported(const LoaderFunctions& vk)
 {
     std::uint32_t count = 0;
-    check(vkEnumerateInstanceExtensionProperties(nullptr, &count, nullptr), "listing the instance extensions");
+    check(vk.vkEnumerateInstanceExtensionProperties(nullptr, &count, nullptr), "listing the instance extensions");
     std::vector<VkExtensionProperties> extensions(count);
-    check(vkEnumerateInstanceExtensionProperties(nullptr, &count, extensions.data()),
+    check(vk.vkEnumerateInstanceExtensionProperties(nullptr, &count, extensions.data()),
           "listing the instance extensions");
     return std::any_of(extensions.begin(), extensions.end(), [](const VkExtensionProperties& extension) {
         return std::strcmp(static_cast<const char*>(extension.extensionName), VK_EXT_DEBUG_UTILS_EXTENSION_NAME) == 0;
     });
 }
 
-void load_loader()
+bool layer_installed(const LoaderFunctions& vk)
 {
-    // volk keeps the loader open for the life of the process; asking twice is harmless.
-    if (volkInitialize() != VK_SUCCESS) {
-        throw device_error("no Vulkan loader was found (libvulkan.so.1; Debian package libvulkan1)");
-    }
+    std::uint32_t count = 0;
+    check(vk.vkEnumerateInstanceLayerProperties(&count, nullptr), "listing the instance layers");
+    std::vector<VkLayerProperties> layers(count);
+    check(vk.vkEnumerateInstanceLayerProperties(&count, layers.data()), "listing the instance layers");
+    return std::any_of(layers.begin(), layers.end(), [](const VkLayerProperties& layer) {
+        return std::strcmp(static_cast<const char*>(layer.layerName), validation_layer) == 0;
+    });
 }
 
 } // namespace
@@ -62,24 +66,25 @@ void ValidationLog::clear()
 
 bool Instance::validation_layer_installed()
 {
-    load_loader();
-    std::uint32_t count = 0;
-    check(vkEnumerateInstanceLayerProperties(&count, nullptr), "listing the instance layers");
-    std::vector<VkLayerProperties> layers(count);
-    check(vkEnumerateInstanceLayerProperties(&count, layers.data()), "listing the instance layers");
-    return std::any_of(layers.begin(), layers.end(), [](const VkLayerProperties& layer) {
-        return std::strcmp(static_cast<const char*>(layer.layerName), validation_layer) == 0;
-    });
+    return layer_installed(load_loader_functions(system_loader()));
+}
+
+std::uint32_t Instance::loader_version()
+{
+    std::uint32_t version = 0;
+    check(load_loader_functions(system_loader()).vkEnumerateInstanceVersion(&version),
+          "asking for the version of Vulkan");
+    return version;
 }
 
 Instance::Instance(bool validation)
 {
-    load_loader();
-    if (validation && !validation_layer_installed()) {
+    const LoaderFunctions loader = load_loader_functions(system_loader());
+    if (validation && !layer_installed(loader)) {
         throw device_error("validation was asked for, but {} is not installed (Debian package vulkan-validationlayers)",
                            validation_layer);
     }
-    const bool debug_utils = debug_utils_supported();
+    const bool debug_utils = debug_utils_supported(loader);
     if (validation && !debug_utils) {
         throw device_error("validation was asked for, but {} is not supported", VK_EXT_DEBUG_UTILS_EXTENSION_NAME);
     }
@@ -101,7 +106,7 @@ Instance::Instance(bool validation)
     VkApplicationInfo application{VK_STRUCTURE_TYPE_APPLICATION_INFO};
     application.pApplicationName = "meltpoint";
     application.pEngineName = "meltpoint";
-    application.apiVersion = VK_API_VERSION_1_3;
+    application.apiVersion = required_api_version;
 
     const char* extension = VK_EXT_DEBUG_UTILS_EXTENSION_NAME;
     VkInstanceCreateInfo info{VK_STRUCTURE_TYPE_INSTANCE_CREATE_INFO};
@@ -111,11 +116,12 @@ Instance::Instance(bool validation)
     info.ppEnabledLayerNames = &validation_layer;
     info.enabledExtensionCount = debug_utils ? 1 : 0;
     info.ppEnabledExtensionNames = &extension;
-    check(vkCreateInstance(&info, nullptr, &instance_), "creating a Vulkan instance");
-    volkLoadInstanceOnly(instance_);
+    VkInstance instance = VK_NULL_HANDLE;
+    check(loader.vkCreateInstance(&info, nullptr, &instance), "creating a Vulkan instance");
+    vk_ = load_instance_functions(loader.vkGetInstanceProcAddr, instance);
 
     if (validation) {
-        check(vkCreateDebugUtilsMessengerEXT(instance_, &messenger, nullptr, &messenger_),
+        check(vk_.vkCreateDebugUtilsMessengerEXT(instance, &messenger, nullptr, &messenger_),
               "creating the validation messenger");
     }
 }
@@ -123,9 +129,9 @@ Instance::Instance(bool validation)
 Instance::~Instance()
 {
     if (messenger_ != VK_NULL_HANDLE) {
-        vkDestroyDebugUtilsMessengerEXT(instance_, messenger_, nullptr);
+        vk_.vkDestroyDebugUtilsMessengerEXT(vk_.instance, messenger_, nullptr);
     }
-    vkDestroyInstance(instance_, nullptr);
+    vk_.vkDestroyInstance(vk_.instance, nullptr);
 }
 
 } // namespace meltpoint::gpu

@@ -1,19 +1,23 @@
 #pragma once
 
+#include <cstdint>
 #include <memory>
 #include <mutex>
 #include <string>
 #include <vector>
 
-#include "gpu/vulkan.h"
+#include "gpu/functions.h"
 
 namespace meltpoint::gpu {
 
 /// Warnings and errors of the validation layers, in order of arrival. Thread safe.
 class ValidationLog {
 public:
+    /// Appends one.
     void add(std::string message);
+    /// All so far.
     [[nodiscard]] std::vector<std::string> messages() const;
+    /// Forgets them.
     void clear();
 
 private:
@@ -31,14 +35,22 @@ public:
     Instance(const Instance&) = delete;
     Instance& operator=(const Instance&) = delete;
 
-    [[nodiscard]] VkInstance handle() const { return instance_; }
+    /// Owned by this object.
+    [[nodiscard]] VkInstance handle() const { return vk_.instance; }
+    /// The functions of the instance.
+    [[nodiscard]] const InstanceFunctions& functions() const { return vk_; }
+    /// Whether the validation layer is on.
     [[nodiscard]] bool validated() const { return messenger_ != VK_NULL_HANDLE; }
+    /// What the validation layer has said.
     [[nodiscard]] ValidationLog& validation_log() const { return *log_; }
 
+    /// Throws as the constructor where there is no loader.
     [[nodiscard]] static bool validation_layer_installed();
+    /// The highest version of Vulkan that the loader knows, as VK_MAKE_API_VERSION.
+    [[nodiscard]] static std::uint32_t loader_version();
 
 private:
-    VkInstance instance_ = VK_NULL_HANDLE;
+    InstanceFunctions vk_;
     VkDebugUtilsMessengerEXT messenger_ = VK_NULL_HANDLE;
     std::unique_ptr<ValidationLog> log_ = std::make_unique<ValidationLog>();
 };

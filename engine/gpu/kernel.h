@@ -20,15 +20,22 @@ struct SpecConstant {
 class Kernel {
 public:
     Kernel() = default;
+    /// Compiles a shader from its SPIR-V. Throws as reflect, and Device when the driver fails.
     Kernel(const Context& context, const std::string& name, std::span<const std::uint32_t> spirv,
            std::span<const SpecConstant> constants = {});
     ~Kernel();
+    /// Leaves the other one empty.
     Kernel(Kernel&& other) noexcept;
+    /// Frees what it held and leaves the other one empty.
     Kernel& operator=(Kernel&& other) noexcept;
 
+    /// Owned by this object.
     [[nodiscard]] VkPipeline pipeline() const { return pipeline_; }
+    /// One set of push descriptors, one range of push constants.
     [[nodiscard]] VkPipelineLayout layout() const { return layout_; }
+    /// Bindings and push constants, from its SPIR-V.
     [[nodiscard]] const ShaderInterface& shader() const { return shader_; }
+    /// As error messages show it.
     [[nodiscard]] const std::string& name() const { return name_; }
 
 private:

@@ -11,6 +11,7 @@ namespace meltpoint::gpu {
 /// What a shader may do with a binding, from its readonly and writeonly qualifiers.
 enum class ShaderAccess { Read, Write, ReadWrite };
 
+/// One binding of descriptor set 0.
 struct ShaderBinding {
     std::uint32_t binding = 0;
     VkDescriptorType type = VK_DESCRIPTOR_TYPE_STORAGE_BUFFER;

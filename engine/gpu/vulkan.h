@@ -2,7 +2,7 @@
 
 #include <string_view>
 
-#include <volk.h>
+#include <vulkan/vulkan.h>
 
 namespace meltpoint::gpu {
 

@@ -24,7 +24,7 @@ struct ParticleSet {
     std::vector<float> density;  ///< kg/m^3, boundary contributions included
     std::vector<float> pressure; ///< Pa
 
-    [[nodiscard]] std::size_t size() const { return position.size(); }
+    [[nodiscard]] std::size_t size() const { return position.size(); } ///< particles
 
     /// New particles are zero; ids continue with the index.
     void resize(std::size_t count)

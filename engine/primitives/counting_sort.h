@@ -15,6 +15,7 @@ namespace meltpoint::primitives {
 /// crowded key goes to a radix sort, so that the time grows with the number of elements, not with its square.
 class CountingSort {
 public:
+    /// What is sorted.
     struct Input {
         const gpu::Buffer& keys; ///< a uint for each element; elements whose key is key_count or more are left out
         const gpu::Buffer& ids;  ///< a uint for each element, unique within a key
@@ -22,6 +23,7 @@ public:
         std::uint32_t key_count = 0;
     };
 
+    /// What comes out.
     struct Output {
         const gpu::Buffer&
             starts;               ///< key_count + 1: key k has the slots starts[k] .. starts[k + 1] - 1; last the total
@@ -37,6 +39,7 @@ public:
         gpu::Buffer scan;      ///< of the prefix scan
     };
 
+    /// Compiles its kernels.
     explicit CountingSort(const gpu::Context& context);
 
     /// Working memory for sorts of up to `count` elements and `key_count` keys.

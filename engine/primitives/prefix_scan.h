@@ -17,8 +17,10 @@ public:
     /// `elements`: consecutive elements that each invocation scans serially, at least 1; by default what is fast on the
     /// device.
     explicit PrefixScan(const gpu::Context& context) : PrefixScan(context, default_elements(context)) {}
+    /// With `elements` chosen by the caller.
     PrefixScan(const gpu::Context& context, std::uint32_t elements);
 
+    /// More on software devices, where an invocation costs more than its work.
     [[nodiscard]] static std::uint32_t default_elements(const gpu::Context& context);
 
     /// Size of the scratch buffer, in 32-bit words, for up to `count` elements.

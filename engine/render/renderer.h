@@ -29,7 +29,9 @@ public:
     /// the background or the floor. Row by row, width * samples by height * samples.
     [[nodiscard]] std::vector<float> capture_distance();
 
+    /// Pixels.
     [[nodiscard]] std::uint32_t width() const { return width_; }
+    /// Pixels.
     [[nodiscard]] std::uint32_t height() const { return height_; }
 
 private:

@@ -28,6 +28,7 @@ struct FrameStatistics {
     double kinetic_energy = 0.0;   ///< J
     double potential_energy = 0.0; ///< J, zero in the domain's corner that lies farthest along gravity
     glm::dvec3 momentum{0.0};      ///< kg m/s
+    /// What is measured of the fluid alone.
     struct Fluid {
         glm::dvec3 center_of_mass{0.0};  ///< m
         glm::dvec3 min{0.0};             ///< m

@@ -21,11 +21,10 @@
 #include "render/disc_buffers.h"
 #include "render/legend.h"
 #include "render/renderer.h"
-#include "run/fluid_settings.h"
 #include "run/frame_statistics.h"
 #include "run/frame_view.h"
 #include "run/output_files.h"
-#include "run/scene_particles.h"
+#include "run/start_scene.h"
 #include "run/surface_splats.h"
 #include "run/video.h"
 #include "sim/simulation.h"
@@ -239,19 +238,13 @@ RunSummary run_scene(const gpu::Context& context, const Scene& scene, const RunO
         video.emplace(options.video, scene.render.width, scene.render.height, playback_rate(scene));
     }
 
-    const auto [initial, notes] = make_scene_particles(scene, sim::Simulation::particle_limit(context));
-    for (const std::string& note : notes) {
-        log_warning(fmt::format("{}: {}", scene.name, note));
-    }
-    const FluidSettings settings = fluid_settings(scene, initial);
-    for (const std::string& warning : settings.warnings) {
+    StartedScene started = start_scene(context, scene);
+    for (const std::string& warning : started.warnings) {
         log_warning(fmt::format("{}: {}", scene.name, warning));
     }
-    std::optional<sim::Simulation> simulation; // none in a scene of surfaces alone
-    if (initial.size() > 0) {
-        simulation.emplace(context, initial, settings.simulation);
-    }
-    const shared::SphParams& params = simulation ? simulation->params() : settings.simulation.params;
+    std::optional<sim::Simulation>& simulation = started.simulation;
+    const shared::SphParams& params = started.params;
+    const std::uint32_t particle_count = simulation ? simulation->particles().count : 0;
     FramePainter painter(context, scene, params);
     std::optional<StatisticsFile> statistics_file;
     if (!options.stats.empty()) {
@@ -260,7 +253,7 @@ RunSummary run_scene(const gpu::Context& context, const Scene& scene, const RunO
     const double dt = static_cast<double>(params.dt);
     if (!options.quiet) {
         log_info(fmt::format("{}: {} particles, dt {:.4g} s, speed of sound {:.4g} m/s, on {}", scene.name,
-                             initial.size(), dt, params.speed_of_sound, context.info().name));
+                             particle_count, dt, params.speed_of_sound, context.info().name));
     }
 
     const auto stopped = [&] {
@@ -269,7 +262,7 @@ RunSummary run_scene(const gpu::Context& context, const Scene& scene, const RunO
     if (options.force && !stopped()) { // not before all else is known to work: a mistyped scene leaves the old frames
         remove_old_frames(options);
     }
-    RunSummary summary{.particles = static_cast<std::uint32_t>(initial.size())};
+    RunSummary summary{.particles = particle_count};
     bool warned_of_coincident = false;
     Progress progress("frames", scene.time.frames, options.quiet);
     for (std::uint32_t frame = 0; frame < scene.time.frames; ++frame) {
@@ -296,7 +289,7 @@ RunSummary run_scene(const gpu::Context& context, const Scene& scene, const RunO
             video->add(image);
         }
         if (options.particles || statistics_file) {
-            const ParticleSet particles = simulation ? simulation->download() : initial;
+            const ParticleSet particles = simulation ? simulation->download() : ParticleSet{};
             if (options.particles) {
                 write_ply(particles_path(options, frame), particles);
             }

@@ -9,6 +9,7 @@
 
 namespace meltpoint {
 
+/// Where a run writes what.
 struct RunOptions {
     std::filesystem::path out;               ///< folder of frame_NNNN.png; made when missing
     std::filesystem::path video;             ///< empty: none
@@ -19,6 +20,7 @@ struct RunOptions {
     const std::atomic<bool>* stop = nullptr; ///< set by another thread or a signal: finish the frame and return
 };
 
+/// What a run has done.
 struct RunSummary {
     std::uint32_t frames = 0; ///< written
     std::uint32_t particles = 0;

@@ -16,6 +16,7 @@
 
 namespace meltpoint {
 
+/// What to sample, and how.
 struct SampleRequest {
     std::string source;  ///< "builtin:NAME", or the path of a mesh or of points
     bool volume = false; ///< points inside instead of on the surface
@@ -29,6 +30,7 @@ struct SampleRequest {
     std::function<void(std::string_view)> on_stage; ///< called when a stage is done, with its name; may be empty
 };
 
+/// Points and what was measured on the way.
 struct SampledPoints {
     PointCloud cloud;
     MeshFacts facts;                                     ///< no triangles and no edges where the source is a cloud

@@ -17,6 +17,7 @@ enum class SphKernel { Paper, Wendland };
 enum class StateEquation { Linear, Tait };
 enum class Solver { Wcsph };
 
+/// The box that the particles stay in.
 struct DomainSettings {
     glm::vec3 min{-1.0f, 0.0f, -1.0f}; ///< m
     glm::vec3 max{1.0f, 2.0f, 1.0f};   ///< m
@@ -24,11 +25,13 @@ struct DomainSettings {
     float wall_viscosity = 0.0f;       ///< Pa s; 0 is free slip
 };
 
+/// How finely fluid is divided.
 struct ParticleSettings {
     float spacing = 0.02f;      ///< d, m
     float support_ratio = 2.0f; ///< H/d
 };
 
+/// What moves the fluid.
 struct FluidPhysics {
     glm::vec3 gravity{0.0f, -9.81f, 0.0f}; ///< m/s^2
     float viscosity = 0.5f;                ///< dynamic, Pa s
@@ -41,22 +44,26 @@ struct FluidPhysics {
     bool clamp_pressure = true;
 };
 
+/// How long a run is, and in what steps.
 struct TimeSettings {
     std::optional<float> dt;   ///< s; auto: the largest step within the bounds of stability
     float frame_rate = 60.0f;  ///< frames per simulated second
     std::uint32_t frames = 90; ///< number of frames, frame 0 (the initial state) included
 };
 
+/// An axis-aligned box.
 struct BlockShape {
     glm::vec3 min{0.0f}; ///< m
     glm::vec3 max{0.0f}; ///< m
 };
 
+/// A ball.
 struct SphereShape {
     glm::vec3 center{0.0f}; ///< m
     float radius = 0.0f;    ///< m
 };
 
+/// The inside of a mesh.
 struct MeshShape {
     std::string mesh;          ///< a path, resolved by the scene reader, or "builtin:teapot" and the like
     std::optional<float> size; ///< m, largest extent after scaling; auto: the mesh's own units are meters
@@ -68,6 +75,7 @@ using BodyShape = std::variant<BlockShape, SphereShape, MeshShape>;
 
 enum class FluidLattice { Cubic, BlueNoise };
 
+/// A shape filled with fluid.
 struct FluidBody {
     BodyShape shape;
     FluidLattice lattice = FluidLattice::Cubic; ///< how its particles lie at the start
@@ -102,6 +110,7 @@ struct SurfaceBody {
 
 enum class Projection { Perspective, Orthographic };
 
+/// From where a frame is seen.
 struct CameraSettings {
     Projection projection = Projection::Perspective;
     std::optional<glm::vec3> eye;    ///< m; auto: frames the domain
@@ -113,6 +122,7 @@ struct CameraSettings {
 
 enum class ColorMode { Material, Density, Speed, Pressure };
 
+/// How a frame is drawn.
 struct RenderSettings {
     std::uint32_t width = 960;  ///< pixels
     std::uint32_t height = 540; ///< pixels
@@ -124,6 +134,7 @@ struct RenderSettings {
     glm::vec3 background{0.93f, 0.95f, 0.97f};
 };
 
+/// All that a run needs.
 struct Scene {
     std::string name = "untitled";
     std::string description;

@@ -13,6 +13,7 @@
 
 namespace meltpoint::sim {
 
+/// What a Simulation is made with besides its particles.
 struct SimulationSettings {
     shared::SphParams params{}; ///< particle_count and grid_size are filled in
     FluidOptions options;
@@ -39,9 +40,13 @@ public:
     /// reason when a particle is not finite, has left the domain or is faster than the speed limit.
     void advance(std::uint32_t steps);
 
+    /// The present state. advance() moves particles and swaps buffers: ask again after it.
     [[nodiscard]] const ParticleBuffers& particles() const { return particles_; }
+    /// As the passes have them.
     [[nodiscard]] const shared::SphParams& params() const { return params_; }
+    /// Steps since the start.
     [[nodiscard]] std::uint64_t step() const { return step_; }
+    /// s since the start.
     [[nodiscard]] double time() const { return static_cast<double>(step_) * static_cast<double>(params_.dt); }
 
     /// Particles an invocation.
@@ -51,6 +56,7 @@ public:
 
     /// The particles on the host, in order of id.
     [[nodiscard]] ParticleSet download() const;
+    /// Counts neighbors on the device, and waits.
     [[nodiscard]] NeighborStatistics neighbor_statistics();
 
     /// Takes timestamps of every pass from now on (about 40 us each on software devices).
@@ -60,6 +66,7 @@ public:
 
     /// The most particles that the device's memory and binding limits allow.
     [[nodiscard]] static std::uint64_t particle_limit(const gpu::DeviceInfo& device);
+    /// The same for a context's device.
     [[nodiscard]] static std::uint64_t particle_limit(const gpu::Context& context)
     {
         return particle_limit(context.info());

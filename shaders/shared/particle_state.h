@@ -15,11 +15,11 @@ SHARED_CONSTANT uint STATE_DEAD = 4u;
 SHARED_CONSTANT uint MATERIAL_SHIFT = 8u;
 SHARED_CONSTANT uint FLAG_LEFT_DOMAIN = 0x10000u; // was outside the domain at least once; never cleared
 
-SHARED_FUNCTION uint particle_state(uint attributes) { return attributes & 0xffu; }
-SHARED_FUNCTION uint particle_material(uint attributes) { return (attributes >> MATERIAL_SHIFT) & 0xffu; }
+SHARED_FUNCTION uint particle_state(uint attributes) { return attributes & 0xffu; } // STATE_*
+SHARED_FUNCTION uint particle_material(uint attributes) { return (attributes >> MATERIAL_SHIFT) & 0xffu; } // its number
 // A boundary particle: fluid meets it, but it does not move and has no mass.
 SHARED_FUNCTION bool is_boundary(uint attributes) { return particle_state(attributes) == STATE_COLLIDER; }
-SHARED_FUNCTION uint pack_attributes(uint state, uint material) { return state | (material << MATERIAL_SHIFT); }
+SHARED_FUNCTION uint pack_attributes(uint state, uint material) { return state | (material << MATERIAL_SHIFT); } // no flags
 
 // Why the simulation stopped.
 SHARED_CONSTANT uint FAULT_NONE = 0u;
@@ -29,8 +29,8 @@ SHARED_CONSTANT uint FAULT_TOO_FAST = 3u;   // a particle moves farther in a ste
 
 // Which particle and why in one word, so that one atomicMin finds the faulty particle of smallest id.
 SHARED_FUNCTION uint pack_offender(uint particle_id, uint fault) { return (particle_id << 2u) | fault; }
-SHARED_FUNCTION uint offender_id(uint offender) { return offender >> 2u; }
-SHARED_FUNCTION uint offender_fault(uint offender) { return offender & 3u; }
+SHARED_FUNCTION uint offender_id(uint offender) { return offender >> 2u; } // the particle's
+SHARED_FUNCTION uint offender_fault(uint offender) { return offender & 3u; } // FAULT_*
 
 SHARED_CONSTANT uint NO_STEP = 0xffffffffu;
 

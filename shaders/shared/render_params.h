@@ -38,6 +38,7 @@ struct SplatPush {
     float radius; // m, of spheres
 };
 
+// What all passes of a frame read.
 struct RenderParams {
     SplatCamera camera;
     SplatCamera light; // orthographic, of the shadow map

@@ -41,7 +41,7 @@ TEST_F(ContextTest, ABufferBeyondTheLimitsIsADeviceError)
 
 TEST_F(ContextTest, DevicesAreChosenByIndexAndByPartOfTheName)
 {
-    const std::vector<gpu::DeviceInfo> devices = gpu::list_devices(context().instance());
+    const std::vector<gpu::DeviceInfo> devices = gpu::list_devices(context().instance_functions());
     ASSERT_FALSE(devices.empty());
     EXPECT_EQ(gpu::choose_device(devices, "0").index, 0u);
     EXPECT_EQ(gpu::choose_device({devices[0]}, devices[0].name.substr(0, 4)).index, 0u);
