@@ -13,6 +13,7 @@ struct GlobalOptions {
 void add_render(CLI::App& app, const GlobalOptions& global, int& exit_code);
 void add_sample(CLI::App& app, const GlobalOptions& global, int& exit_code);
 void add_compare(CLI::App& app, const GlobalOptions& global, int& exit_code);
+void add_follow(CLI::App& app, const GlobalOptions& global, int& exit_code);
 void add_bench(CLI::App& app, const GlobalOptions& global, int& exit_code);
 void add_report(CLI::App& app, const GlobalOptions& global, int& exit_code);
 void add_info(CLI::App& app, const GlobalOptions& global, int& exit_code);

@@ -35,6 +35,7 @@ int run(int argc, char** argv)
     program::add_render(app, global, exit_code);
     program::add_sample(app, global, exit_code);
     program::add_compare(app, global, exit_code);
+    program::add_follow(app, global, exit_code);
     program::add_bench(app, global, exit_code);
     program::add_report(app, global, exit_code);
     program::add_info(app, global, exit_code);
@@ -48,8 +49,8 @@ int run(int argc, char** argv)
     } catch (const CLI::ParseError& error) {
         const bool asked_for = error.get_exit_code() == static_cast<int>(CLI::ExitCodes::Success);
         if (!asked_for && argc > 1 && app.get_subcommands().empty() && argv[1][0] != '-') {
-            throw input_error("there is no subcommand \"{}\"; there are render, sample, compare, bench and info",
-                              argv[1]);
+            throw input_error(
+                "there is no subcommand \"{}\"; there are render, sample, compare, follow, bench and info", argv[1]);
         }
         app.exit(error); // prints help and version to stdout, mistakes to stderr
         return asked_for ? program::exit_done : program::exit_bad_input;

@@ -30,6 +30,7 @@ struct Evenness {
     double relative_radius = 0.0; ///< smallest distance over densest_packing d, images left out
 };
 
+/// What relax_particles has reached.
 struct Relaxation {
     Evenness evenness; ///< in the end
     std::size_t iterations = 0;

@@ -77,6 +77,7 @@ TEST_F(Cli, HelpOfEverySubcommandTellsUnitsAndDefaults)
          {"--out", "[out/NAME", "--frames", "time.frames", "--size", "in pixels", "--video", "--particles", "--stats",
           "SI units", "--device", "--set", "--validate", "--force"}},
         {"compare", {"--steps", "[50]", "--json", "--device", "--set", "--validate"}},
+        {"follow", {"--particle", "[0]", "--steps", "[100]", "--device", "--set", "--validate"}},
         {"info", {"--device", "--json"}}};
     for (const auto& [subcommand, parts] : expected) {
         const Result result = run({subcommand, "--help"});
@@ -111,6 +112,7 @@ TEST_F(Cli, WrongUsageExitsWithTwo)
                                                              {"render", "drop", "--particles", "xyz"},
                                                              {"render", "drop", "--out"},
                                                              {"compare", "drop", "--steps", "-1"},
+                                                             {"follow", "drop", "--steps", "0"},
                                                              {"nonsense"}}) {
         const Result result = run(arguments);
         EXPECT_EQ(result.exit_code, 2) << testing::PrintToString(arguments);
@@ -165,6 +167,7 @@ TEST_F(Cli, BadInputIsOneSentenceAndExitsWithTwo)
         SCOPED_TRACE(testing::PrintToString(arguments));
         expect_one_sentence(run(arguments), 2, part);
     }
+    expect_one_sentence(run({"follow", "drop", "--particle", "99999999"}), 2, "drop has particles 0 to");
     EXPECT_FALSE(fs::exists(path("out")) && !fs::is_empty(path("out/drop")));
     EXPECT_TRUE(fs::exists("/dev/full") && !fs::is_regular_file("/dev/full"));
 }

@@ -48,6 +48,7 @@ EXTRA = {
     "apps/meltpoint/bench.cpp": ["apps/bench"],
     "apps/meltpoint/report.cpp": ["apps/report"],
     "apps/meltpoint/compare.cpp": ["apps/conformance", "engine/reference"],
+    "apps/meltpoint/follow.cpp": ["apps/conformance"],
 }
 
 GPU_FOLDERS = ["engine/gpu", "engine/primitives", "engine/particle_buffers", "engine/sim", "engine/render", "engine/run"]
