@@ -12,6 +12,7 @@ required_packages=(
     ninja-build                # what the presets build with
     glslang-tools              # glslangValidator: shaders to SPIR-V
     libvulkan-dev              # Vulkan headers and loader
+    libvulkan-volk-dev         # Vulkan entry points loaded per device
     libspirv-cross-c-shared-dev  # reflection of compiled shaders (it holds the C++ library too)
     mesa-vulkan-drivers        # lavapipe, the Vulkan device of machines without a GPU
     vulkan-validationlayers    # render --validate, and the tests that must see no message

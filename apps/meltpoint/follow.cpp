@@ -216,6 +216,9 @@ int follow(const FollowOptions& options)
     const Scene scene = load_scene(options.scene);
     const gpu::Context context(context_options(options.scene));
     const ParticleSet initial = make_particles(scene, sim::Simulation::particle_limit(context));
+    if (initial.size() == 0) {
+        throw input_error("{} has no particles to follow: its surfaces are drawn, not simulated", scene.name);
+    }
     if (options.particle >= initial.size()) {
         throw input_error("--particle {}: {} has particles 0 to {}", options.particle, scene.name, initial.size() - 1);
     }

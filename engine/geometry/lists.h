@@ -32,7 +32,7 @@ public:
         });
     }
 
-    [[nodiscard]] std::span<const T> operator[](std::size_t i) const
+    [[nodiscard]] std::span<const T> operator[](std::size_t i) const ///< list i
     {
         const Block& block = blocks_[i / block_size];
         const std::uint32_t begin = block.begin[i % block_size];

@@ -5,6 +5,7 @@
 
 namespace meltpoint {
 
+/// How hard to try: the grid is refined from first_cells until the error is small enough or it has most_cells.
 struct VolumeAccuracy {
     double error = 3e-4; ///< standard error over volume
     double first_cells = 320e3;

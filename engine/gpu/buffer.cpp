@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <utility>
 
+#include <volk.h>
+
 #include "core/error.h"
 
 namespace meltpoint::gpu {
@@ -46,30 +48,30 @@ Buffer::Buffer(const Context& context, VkDeviceSize bytes, MemoryUse use, const 
                      VK_BUFFER_USAGE_TRANSFER_DST_BIT | VK_BUFFER_USAGE_INDIRECT_BUFFER_BIT |
                      VK_BUFFER_USAGE_VERTEX_BUFFER_BIT; // which is for hosts: the engine's own shaders pull vertices
         info.usage |= texels != VK_FORMAT_UNDEFINED ? VK_BUFFER_USAGE_UNIFORM_TEXEL_BUFFER_BIT : 0;
-        check(context.vk.vkCreateBuffer(context.device(), &info, nullptr, &buffer_), "creating a buffer");
+        check(context.vk().vkCreateBuffer(context.device(), &info, nullptr, &buffer_), "creating a buffer");
         context.set_name(VK_OBJECT_TYPE_BUFFER, reinterpret_cast<std::uint64_t>(buffer_), name); // NOLINT
 
         VkMemoryRequirements needs{};
-        context.vk.vkGetBufferMemoryRequirements(context.device(), buffer_, &needs);
+        context.vk().vkGetBufferMemoryRequirements(context.device(), buffer_, &needs);
         VkMemoryAllocateInfo allocation{VK_STRUCTURE_TYPE_MEMORY_ALLOCATE_INFO};
         allocation.allocationSize = needs.size;
         allocation.memoryTypeIndex =
             context.memory_type(needs.memoryTypeBits, required_properties(use), preferred_properties(use));
-        const VkResult result = context.vk.vkAllocateMemory(context.device(), &allocation, nullptr, &memory_);
+        const VkResult result = context.vk().vkAllocateMemory(context.device(), &allocation, nullptr, &memory_);
         if (result != VK_SUCCESS) {
             throw device_error("{} has no {:.1f} MiB of memory left for the buffer \"{}\"", context.info().name,
                                static_cast<double>(needs.size) / mebibyte, name);
         }
-        check(context.vk.vkBindBufferMemory(context.device(), buffer_, memory_, 0), "binding a buffer to its memory");
+        check(context.vk().vkBindBufferMemory(context.device(), buffer_, memory_, 0), "binding a buffer to its memory");
         if (texels != VK_FORMAT_UNDEFINED) {
             VkBufferViewCreateInfo view{VK_STRUCTURE_TYPE_BUFFER_VIEW_CREATE_INFO};
             view.buffer = buffer_;
             view.format = texels;
             view.range = VK_WHOLE_SIZE;
-            check(context.vk.vkCreateBufferView(context.device(), &view, nullptr, &texels_), "creating a texel buffer");
+            check(context.vk().vkCreateBufferView(context.device(), &view, nullptr, &texels_), "creating a texel buffer");
         }
         if (use != MemoryUse::Device) {
-            check(context.vk.vkMapMemory(context.device(), memory_, 0, VK_WHOLE_SIZE, 0, &mapped_), "mapping a buffer");
+            check(context.vk().vkMapMemory(context.device(), memory_, 0, VK_WHOLE_SIZE, 0, &mapped_), "mapping a buffer");
         }
     } catch (...) {
         release();
@@ -109,9 +111,9 @@ void Buffer::release() noexcept
     if (context_ == nullptr) {
         return;
     }
-    context_->vk.vkDestroyBufferView(context_->device(), texels_, nullptr);
-    context_->vk.vkDestroyBuffer(context_->device(), buffer_, nullptr);
-    context_->vk.vkFreeMemory(context_->device(), memory_, nullptr);
+    context_->vk().vkDestroyBufferView(context_->device(), texels_, nullptr);
+    context_->vk().vkDestroyBuffer(context_->device(), buffer_, nullptr);
+    context_->vk().vkFreeMemory(context_->device(), memory_, nullptr);
     buffer_ = VK_NULL_HANDLE;
     memory_ = VK_NULL_HANDLE;
     texels_ = VK_NULL_HANDLE;

@@ -5,6 +5,7 @@
 #include <stdexcept>
 
 #include <fmt/format.h>
+#include <volk.h>
 
 #include "core/error.h"
 
@@ -44,7 +45,7 @@ bool allows(ShaderAccess shader, Access declared)
 Commands::Commands(const Context& context, std::uint32_t max_scopes)
     : context_(&context), max_scopes_(context.info().timestamp_bits > 0 ? max_scopes : 0)
 {
-    const DeviceFunctions& vk = context.vk;
+    const VolkDeviceTable& vk = context.vk();
     VkCommandPoolCreateInfo pool{VK_STRUCTURE_TYPE_COMMAND_POOL_CREATE_INFO};
     pool.queueFamilyIndex = context.info().queue_family;
     check(vk.vkCreateCommandPool(context.device(), &pool, nullptr, &pool_), "creating a command pool");
@@ -65,7 +66,7 @@ Commands::Commands(const Context& context, std::uint32_t max_scopes)
 
 Commands::~Commands()
 {
-    const DeviceFunctions& vk = context_->vk;
+    const VolkDeviceTable& vk = context_->vk();
     if (submitted_) {
         vk.vkWaitForFences(context_->device(), 1, &fence_, VK_TRUE, UINT64_MAX); // a lost device returns at once
     }
@@ -76,7 +77,7 @@ Commands::~Commands()
 
 void Commands::begin()
 {
-    const DeviceFunctions& vk = context_->vk;
+    const VolkDeviceTable& vk = context_->vk();
     check(vk.vkResetCommandPool(context_->device(), pool_, 0), "resetting a command pool");
     VkCommandBufferBeginInfo info{VK_STRUCTURE_TYPE_COMMAND_BUFFER_BEGIN_INFO};
     info.flags = VK_COMMAND_BUFFER_USAGE_ONE_TIME_SUBMIT_BIT;
@@ -92,7 +93,7 @@ void Commands::begin()
 
 void Commands::submit()
 {
-    const DeviceFunctions& vk = context_->vk;
+    const VolkDeviceTable& vk = context_->vk();
     if (host_reads_) {
         pending_.srcStageMask |= VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT;
         pending_.srcAccessMask |= VK_ACCESS_2_MEMORY_WRITE_BIT;
@@ -117,7 +118,7 @@ void Commands::submit()
 
 void Commands::wait()
 {
-    const DeviceFunctions& vk = context_->vk;
+    const VolkDeviceTable& vk = context_->vk();
     check(vk.vkWaitForFences(context_->device(), 1, &fence_, VK_TRUE, UINT64_MAX), "waiting for the device");
     check(vk.vkResetFences(context_->device(), 1, &fence_), "resetting a fence");
     submitted_ = false;
@@ -133,7 +134,7 @@ void Commands::order_with_host()
     VkDependencyInfo info{VK_STRUCTURE_TYPE_DEPENDENCY_INFO};
     info.memoryBarrierCount = 1;
     info.pMemoryBarriers = &all;
-    context_->vk.vkCmdPipelineBarrier2(buffer_, &info);
+    context_->vk().vkCmdPipelineBarrier2(buffer_, &info);
 }
 
 void Commands::use(const Buffer& buffer, VkPipelineStageFlags2 stages, VkAccessFlags2 access, bool writes)
@@ -174,7 +175,7 @@ void Commands::flush_barriers()
         info.pMemoryBarriers = &pending_;
         info.imageMemoryBarrierCount = static_cast<std::uint32_t>(pending_images_.size());
         info.pImageMemoryBarriers = pending_images_.data();
-        context_->vk.vkCmdPipelineBarrier2(buffer_, &info);
+        context_->vk().vkCmdPipelineBarrier2(buffer_, &info);
     }
     suppress_next_barrier_ = false;
     pending_ = {};
@@ -224,7 +225,7 @@ void Commands::bind(const Kernel& kernel, std::span<const std::byte> push, std::
         views[i] = binding.buffer->texels();
         writes[i].pTexelBufferView = &views[i];
     }
-    const DeviceFunctions& vk = context_->vk;
+    const VolkDeviceTable& vk = context_->vk();
     vk.vkCmdBindPipeline(buffer_, VK_PIPELINE_BIND_POINT_COMPUTE, kernel.pipeline());
     vk.vkCmdPushDescriptorSetKHR(buffer_, VK_PIPELINE_BIND_POINT_COMPUTE, kernel.layout(), 0,
                                  static_cast<std::uint32_t>(bindings.size()), writes.data());
@@ -244,7 +245,7 @@ void Commands::dispatch_bytes(const Kernel& kernel, std::uint32_t invocations, s
     flush_barriers();
     const std::uint32_t size = kernel.shader().workgroup_size;
     const auto [x, y] = split_groups((invocations - 1) / size + 1, context_->limits());
-    context_->vk.vkCmdDispatch(buffer_, x, y, 1);
+    context_->vk().vkCmdDispatch(buffer_, x, y, 1);
 }
 
 void Commands::dispatch_indirect_bytes(const Kernel& kernel, const Buffer& arguments, VkDeviceSize offset,
@@ -253,14 +254,14 @@ void Commands::dispatch_indirect_bytes(const Kernel& kernel, const Buffer& argum
     use(arguments, VK_PIPELINE_STAGE_2_DRAW_INDIRECT_BIT, VK_ACCESS_2_INDIRECT_COMMAND_READ_BIT, false);
     bind(kernel, push, bindings);
     flush_barriers();
-    context_->vk.vkCmdDispatchIndirect(buffer_, arguments.handle(), offset);
+    context_->vk().vkCmdDispatchIndirect(buffer_, arguments.handle(), offset);
 }
 
 void Commands::fill(const Buffer& buffer, std::uint32_t word, VkDeviceSize bytes)
 {
     use(buffer, VK_PIPELINE_STAGE_2_ALL_TRANSFER_BIT, VK_ACCESS_2_TRANSFER_WRITE_BIT, true);
     flush_barriers();
-    context_->vk.vkCmdFillBuffer(buffer_, buffer.handle(), 0, bytes, word);
+    context_->vk().vkCmdFillBuffer(buffer_, buffer.handle(), 0, bytes, word);
 }
 
 void Commands::copy(const Buffer& source, const Buffer& target, VkDeviceSize bytes, VkDeviceSize source_offset,
@@ -273,7 +274,7 @@ void Commands::copy(const Buffer& source, const Buffer& target, VkDeviceSize byt
     use(target, VK_PIPELINE_STAGE_2_ALL_TRANSFER_BIT, VK_ACCESS_2_TRANSFER_WRITE_BIT, true);
     flush_barriers();
     const VkBufferCopy region{source_offset, target_offset, bytes};
-    context_->vk.vkCmdCopyBuffer(buffer_, source.handle(), target.handle(), 1, &region);
+    context_->vk().vkCmdCopyBuffer(buffer_, source.handle(), target.handle(), 1, &region);
 }
 
 std::uint32_t Commands::begin_scope(const char* name)
@@ -288,14 +289,14 @@ std::uint32_t Commands::begin_scope(const char* name)
     }
     const auto scope = static_cast<std::uint32_t>(scopes_.size());
     scopes_.emplace_back(name);
-    context_->vk.vkCmdWriteTimestamp2(buffer_, VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT, queries_, 2 * scope);
+    context_->vk().vkCmdWriteTimestamp2(buffer_, VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT, queries_, 2 * scope);
     return scope;
 }
 
 void Commands::end_scope(std::uint32_t scope)
 {
     if (scope != no_scope) {
-        context_->vk.vkCmdWriteTimestamp2(buffer_, VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT, queries_, 2 * scope + 1);
+        context_->vk().vkCmdWriteTimestamp2(buffer_, VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT, queries_, 2 * scope + 1);
     }
     if (const auto end_label = context_->instance_functions().vkCmdEndDebugUtilsLabelEXT) {
         end_label(buffer_);
@@ -308,7 +309,7 @@ std::vector<Timing> Commands::timings() const
         return {};
     }
     std::vector<std::uint64_t> ticks(2 * scopes_.size());
-    check(context_->vk.vkGetQueryPoolResults(context_->device(), queries_, 0, static_cast<std::uint32_t>(ticks.size()),
+    check(context_->vk().vkGetQueryPoolResults(context_->device(), queries_, 0, static_cast<std::uint32_t>(ticks.size()),
                                              ticks.size() * sizeof(std::uint64_t), ticks.data(), sizeof(std::uint64_t),
                                              VK_QUERY_RESULT_64_BIT | VK_QUERY_RESULT_WAIT_BIT),
           "reading the timestamps");

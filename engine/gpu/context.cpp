@@ -4,6 +4,7 @@
 #include <span>
 
 #include <fmt/ranges.h>
+#include <volk.h>
 
 #include "core/error.h"
 #include "gpu/device_requirements.h"
@@ -87,8 +88,8 @@ Context::Context(const ContextOptions& options)
     device_info.ppEnabledExtensionNames = extensions.data();
     check(instance_functions_.vkCreateDevice(info_.handle, &device_info, nullptr, &device_),
           "creating the Vulkan device");
-    vk = load_device_functions(instance_functions_, device_);
-    vk.vkGetDeviceQueue(device_, info_.queue_family, 0, &queue_);
+    device_functions_ = load_device_functions(instance_functions_, device_);
+    device_functions_->vkGetDeviceQueue(device_, info_.queue_family, 0, &queue_);
     instance_functions_.vkGetPhysicalDeviceMemoryProperties(info_.handle, &memory_);
 }
 
@@ -121,14 +122,14 @@ Context::Context(const HostDevice& host)
     }
     info_.queue_family = host.queue_family;
     info_.timestamp_bits = family.timestampValidBits;
-    vk = load_device_functions(instance_functions_, device_);
+    device_functions_ = load_device_functions(instance_functions_, device_);
     instance_functions_.vkGetPhysicalDeviceMemoryProperties(info_.handle, &memory_);
 }
 
 Context::~Context()
 {
     if (instance_ && device_ != VK_NULL_HANDLE) {
-        vk.vkDestroyDevice(device_, nullptr);
+        device_functions_->vkDestroyDevice(device_, nullptr);
     }
 }
 
@@ -138,7 +139,7 @@ VkResult Context::submit(const VkSubmitInfo2& work, VkFence fence) const
     if (queue_mutex_ != nullptr) {
         lock = std::unique_lock(*queue_mutex_);
     }
-    return vk.vkQueueSubmit2(queue_, 1, &work, fence);
+    return device_functions_->vkQueueSubmit2(queue_, 1, &work, fence);
 }
 
 std::vector<std::string> Context::validation_messages() const

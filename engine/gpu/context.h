@@ -38,7 +38,7 @@ struct HostDevice {
     std::mutex* queue_mutex = nullptr;
 };
 
-/// A logical device with one queue: what everything on the GPU hangs on. Device functions are called through `vk`, the
+/// A logical device with one queue: what everything on the GPU hangs on. Device functions are called through vk(), the
 /// device's own table, so that several contexts and a host program can live side by side.
 ///
 /// In a host's device, every submission of the engine waits for all that was submitted to the queue before, and all
@@ -57,8 +57,8 @@ public:
     Context(const Context&) = delete;
     Context& operator=(const Context&) = delete;
 
-    /// The device's functions.
-    DeviceFunctions vk;
+    /// The device's functions: include <volk.h> to call them.
+    [[nodiscard]] const VolkDeviceTable& vk() const { return *device_functions_; }
 
     /// The logical device.
     [[nodiscard]] VkDevice device() const { return device_; }
@@ -98,6 +98,7 @@ private:
     InstanceFunctions instance_functions_;
     DeviceInfo info_;
     VkDevice device_ = VK_NULL_HANDLE;
+    std::unique_ptr<const VolkDeviceTable> device_functions_;
     VkQueue queue_ = VK_NULL_HANDLE;
     std::mutex* queue_mutex_ = nullptr; ///< of the host, or null
     VkPhysicalDeviceMemoryProperties memory_{};

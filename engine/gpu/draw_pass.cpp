@@ -3,6 +3,7 @@
 #include <stdexcept>
 
 #include <fmt/format.h>
+#include <volk.h>
 
 namespace meltpoint::gpu {
 
@@ -71,7 +72,7 @@ void begin_rendering(Commands& commands, const Targets& targets)
     info.colorAttachmentCount = static_cast<std::uint32_t>(colors.size());
     info.pColorAttachments = colors.data();
 
-    const DeviceFunctions& vk = commands.context().vk;
+    const VolkDeviceTable& vk = commands.context().vk();
     vk.vkCmdBeginRendering(commands.handle(), &info);
     const VkExtent2D extent = info.renderArea.extent;
     const VkViewport viewport{0.0f, 0.0f, static_cast<float>(extent.width), static_cast<float>(extent.height),
@@ -99,7 +100,7 @@ void record_draw(Commands& commands, const Draw& draw)
             writes[i].pBufferInfo = &buffers[i];
         }
     }
-    const DeviceFunctions& vk = commands.context().vk;
+    const VolkDeviceTable& vk = commands.context().vk();
     vk.vkCmdBindPipeline(commands.handle(), VK_PIPELINE_BIND_POINT_GRAPHICS, draw.pipeline->pipeline());
     vk.vkCmdPushDescriptorSetKHR(commands.handle(), VK_PIPELINE_BIND_POINT_GRAPHICS, draw.pipeline->layout(), 0,
                                  static_cast<std::uint32_t>(writes.size()), writes.data());
@@ -134,7 +135,7 @@ void record_draw_pass(Commands& commands, const Targets& targets, std::span<cons
             record_draw(commands, draw);
         }
     }
-    commands.context().vk.vkCmdEndRendering(commands.handle());
+    commands.context().vk().vkCmdEndRendering(commands.handle());
 }
 
 } // namespace meltpoint::gpu

@@ -1,8 +1,19 @@
 #include "gpu/functions.h"
 
-#include <dlfcn.h>
+#include <mutex>
+
+#include <volk.h>
 
 #include "core/error.h"
+
+// Of volk.c, as cmake/volk.cmake names them.
+extern "C" {
+extern PFN_vkGetInstanceProcAddr meltpoint_vkGetInstanceProcAddr;
+VkResult meltpoint_volkInitialize();
+void meltpoint_volkInitializeCustom(PFN_vkGetInstanceProcAddr handler);
+void meltpoint_volkLoadInstanceOnly(VkInstance instance);
+void meltpoint_volkLoadDeviceTable(VolkDeviceTable* table, VkDevice device);
+}
 
 namespace meltpoint::gpu {
 
@@ -23,16 +34,18 @@ void assign_required(Function& function, PFN_vkVoidFunction loaded, const char* 
     assign(function, loaded);
 }
 
+/// volk's own variables are the process's: each use sets what it needs anew.
+std::mutex volk_mutex;
+
 } // namespace
 
 PFN_vkGetInstanceProcAddr system_loader()
 {
-    void* library = dlopen("libvulkan.so.1", RTLD_NOW | RTLD_LOCAL); // opened once however often it is asked for
-    void* entry = library != nullptr ? dlsym(library, "vkGetInstanceProcAddr") : nullptr;
-    if (entry == nullptr) {
+    const std::scoped_lock lock(volk_mutex);
+    if (meltpoint_volkInitialize() != VK_SUCCESS) { // opens the library once however often it is asked to
         throw device_error("no Vulkan loader was found (libvulkan.so.1; Debian package libvulkan1)");
     }
-    return reinterpret_cast<PFN_vkGetInstanceProcAddr>(entry); // NOLINT: as POSIX intends
+    return meltpoint_vkGetInstanceProcAddr;
 }
 
 LoaderFunctions load_loader_functions(PFN_vkGetInstanceProcAddr get_instance_proc_addr)
@@ -49,6 +62,7 @@ InstanceFunctions load_instance_functions(PFN_vkGetInstanceProcAddr get_instance
 {
     InstanceFunctions vk;
     vk.instance = instance;
+    vk.vkGetInstanceProcAddr = get_instance_proc_addr;
 #define LOAD(name) assign_required(vk.name, get_instance_proc_addr(instance, #name), #name);
     MELTPOINT_INSTANCE_FUNCTIONS(LOAD)
 #undef LOAD
@@ -58,13 +72,14 @@ InstanceFunctions load_instance_functions(PFN_vkGetInstanceProcAddr get_instance
     return vk;
 }
 
-DeviceFunctions load_device_functions(const InstanceFunctions& vk, VkDevice device)
+std::unique_ptr<const VolkDeviceTable> load_device_functions(const InstanceFunctions& vk, VkDevice device)
 {
-    DeviceFunctions functions;
-#define LOAD(name) assign_required(functions.name, vk.vkGetDeviceProcAddr(device, #name), #name);
-    MELTPOINT_DEVICE_FUNCTIONS(LOAD)
-#undef LOAD
-    return functions;
+    auto table = std::make_unique<VolkDeviceTable>();
+    const std::scoped_lock lock(volk_mutex);
+    meltpoint_volkInitializeCustom(vk.vkGetInstanceProcAddr);
+    meltpoint_volkLoadInstanceOnly(vk.instance);
+    meltpoint_volkLoadDeviceTable(table.get(), device);
+    return table;
 }
 
 } // namespace meltpoint::gpu

@@ -5,6 +5,8 @@
 #include <stdexcept>
 #include <utility>
 
+#include <volk.h>
+
 #include "gpu/kernel.h"
 
 namespace meltpoint::gpu {
@@ -42,7 +44,7 @@ VkSampler make_nearest_sampler(const Context& context)
     info.addressModeV = VK_SAMPLER_ADDRESS_MODE_CLAMP_TO_EDGE;
     info.addressModeW = VK_SAMPLER_ADDRESS_MODE_CLAMP_TO_EDGE;
     VkSampler sampler = VK_NULL_HANDLE;
-    check(context.vk.vkCreateSampler(context.device(), &info, nullptr, &sampler), "creating a sampler");
+    check(context.vk().vkCreateSampler(context.device(), &info, nullptr, &sampler), "creating a sampler");
     return sampler;
 }
 
@@ -57,7 +59,7 @@ GraphicsPipeline::GraphicsPipeline(const Context& context, std::string name, con
     std::vector<VkShaderModule> modules;
     const auto destroy_modules = [&] {
         for (const VkShaderModule module : modules) {
-            context.vk.vkDestroyShaderModule(context.device(), module, nullptr);
+            context.vk().vkDestroyShaderModule(context.device(), module, nullptr);
         }
     };
     try {
@@ -138,7 +140,7 @@ void GraphicsPipeline::create(const GraphicsPipelineInfo& info, std::span<const 
     pipeline.pColorBlendState = &blend;
     pipeline.pDynamicState = &dynamic;
     pipeline.layout = layout_;
-    check(context_->vk.vkCreateGraphicsPipelines(context_->device(), VK_NULL_HANDLE, 1, &pipeline, nullptr, &pipeline_),
+    check(context_->vk().vkCreateGraphicsPipelines(context_->device(), VK_NULL_HANDLE, 1, &pipeline, nullptr, &pipeline_),
           "creating the graphics pipeline of " + name_);
     context_->set_name(VK_OBJECT_TYPE_PIPELINE, reinterpret_cast<std::uint64_t>(pipeline_), name_); // NOLINT
 }
@@ -173,10 +175,10 @@ void GraphicsPipeline::release() noexcept
     if (context_ == nullptr) {
         return;
     }
-    context_->vk.vkDestroyPipeline(context_->device(), pipeline_, nullptr);
-    context_->vk.vkDestroyPipelineLayout(context_->device(), layout_, nullptr);
-    context_->vk.vkDestroyDescriptorSetLayout(context_->device(), set_layout_, nullptr);
-    context_->vk.vkDestroySampler(context_->device(), sampler_, nullptr);
+    context_->vk().vkDestroyPipeline(context_->device(), pipeline_, nullptr);
+    context_->vk().vkDestroyPipelineLayout(context_->device(), layout_, nullptr);
+    context_->vk().vkDestroyDescriptorSetLayout(context_->device(), set_layout_, nullptr);
+    context_->vk().vkDestroySampler(context_->device(), sampler_, nullptr);
 }
 
 } // namespace meltpoint::gpu

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <utility>
 
+#include <volk.h>
+
 #include "core/error.h"
 
 namespace meltpoint::gpu {
@@ -57,26 +59,26 @@ Image::Image(const Context& context, std::uint32_t width, std::uint32_t height, 
         info.samples = VK_SAMPLE_COUNT_1_BIT;
         info.tiling = VK_IMAGE_TILING_OPTIMAL;
         info.usage = usage;
-        check(context.vk.vkCreateImage(context.device(), &info, nullptr, &image_), "creating an image");
+        check(context.vk().vkCreateImage(context.device(), &info, nullptr, &image_), "creating an image");
         context.set_name(VK_OBJECT_TYPE_IMAGE, reinterpret_cast<std::uint64_t>(image_), name); // NOLINT
 
         VkMemoryRequirements needs{};
-        context.vk.vkGetImageMemoryRequirements(context.device(), image_, &needs);
+        context.vk().vkGetImageMemoryRequirements(context.device(), image_, &needs);
         VkMemoryAllocateInfo allocation{VK_STRUCTURE_TYPE_MEMORY_ALLOCATE_INFO};
         allocation.allocationSize = needs.size;
         allocation.memoryTypeIndex = context.memory_type(needs.memoryTypeBits, 0, VK_MEMORY_PROPERTY_DEVICE_LOCAL_BIT);
-        if (context.vk.vkAllocateMemory(context.device(), &allocation, nullptr, &memory_) != VK_SUCCESS) {
+        if (context.vk().vkAllocateMemory(context.device(), &allocation, nullptr, &memory_) != VK_SUCCESS) {
             throw device_error("{} has no {:.1f} MiB of memory left for the image \"{}\"", context.info().name,
                                static_cast<double>(needs.size) / (1024.0 * 1024.0), name);
         }
-        check(context.vk.vkBindImageMemory(context.device(), image_, memory_, 0), "binding an image to its memory");
+        check(context.vk().vkBindImageMemory(context.device(), image_, memory_, 0), "binding an image to its memory");
 
         VkImageViewCreateInfo view{VK_STRUCTURE_TYPE_IMAGE_VIEW_CREATE_INFO};
         view.image = image_;
         view.viewType = VK_IMAGE_VIEW_TYPE_2D;
         view.format = format;
         view.subresourceRange = {aspect(), 0, 1, 0, 1};
-        check(context.vk.vkCreateImageView(context.device(), &view, nullptr, &view_), "creating an image view");
+        check(context.vk().vkCreateImageView(context.device(), &view, nullptr, &view_), "creating an image view");
     } catch (...) {
         release();
         throw;
@@ -119,9 +121,9 @@ void Image::release() noexcept
     if (context_ == nullptr) {
         return;
     }
-    context_->vk.vkDestroyImageView(context_->device(), view_, nullptr);
-    context_->vk.vkDestroyImage(context_->device(), image_, nullptr);
-    context_->vk.vkFreeMemory(context_->device(), memory_, nullptr);
+    context_->vk().vkDestroyImageView(context_->device(), view_, nullptr);
+    context_->vk().vkDestroyImage(context_->device(), image_, nullptr);
+    context_->vk().vkFreeMemory(context_->device(), memory_, nullptr);
     view_ = VK_NULL_HANDLE;
     image_ = VK_NULL_HANDLE;
     memory_ = VK_NULL_HANDLE;
@@ -169,7 +171,7 @@ void copy_to_buffer(Commands& commands, const Image& image, const Buffer& target
     VkBufferImageCopy region{};
     region.imageSubresource = {image.aspect(), 0, 0, 1};
     region.imageExtent = {image.extent().width, image.extent().height, 1};
-    commands.context().vk.vkCmdCopyImageToBuffer(commands.handle(), image.handle(), layout_of(ImageUse::CopySource),
+    commands.context().vk().vkCmdCopyImageToBuffer(commands.handle(), image.handle(), layout_of(ImageUse::CopySource),
                                                  target.handle(), 1, &region);
 }
 

@@ -2,6 +2,8 @@
 
 #include <utility>
 
+#include <volk.h>
+
 namespace meltpoint::gpu {
 
 VkDescriptorSetLayout make_push_set_layout(const Context& context, std::span<const ShaderBinding> bindings,
@@ -16,7 +18,7 @@ VkDescriptorSetLayout make_push_set_layout(const Context& context, std::span<con
     info.bindingCount = static_cast<std::uint32_t>(layout_bindings.size());
     info.pBindings = layout_bindings.data();
     VkDescriptorSetLayout layout = VK_NULL_HANDLE;
-    check(context.vk.vkCreateDescriptorSetLayout(context.device(), &info, nullptr, &layout),
+    check(context.vk().vkCreateDescriptorSetLayout(context.device(), &info, nullptr, &layout),
           "creating a descriptor set layout");
     return layout;
 }
@@ -31,7 +33,7 @@ VkPipelineLayout make_pipeline_layout(const Context& context, VkDescriptorSetLay
     info.pushConstantRangeCount = push_constant_bytes > 0 ? 1 : 0;
     info.pPushConstantRanges = &range;
     VkPipelineLayout layout = VK_NULL_HANDLE;
-    check(context.vk.vkCreatePipelineLayout(context.device(), &info, nullptr, &layout), "creating a pipeline layout");
+    check(context.vk().vkCreatePipelineLayout(context.device(), &info, nullptr, &layout), "creating a pipeline layout");
     return layout;
 }
 
@@ -41,7 +43,7 @@ VkShaderModule make_shader_module(const Context& context, std::span<const std::u
     info.codeSize = spirv.size_bytes();
     info.pCode = spirv.data();
     VkShaderModule module = VK_NULL_HANDLE;
-    check(context.vk.vkCreateShaderModule(context.device(), &info, nullptr, &module), "creating a shader module");
+    check(context.vk().vkCreateShaderModule(context.device(), &info, nullptr, &module), "creating a shader module");
     return module;
 }
 
@@ -70,15 +72,15 @@ Kernel::Kernel(const Context& context, const std::string& name, std::span<const 
         info.stage.pName = "main";
         info.stage.pSpecializationInfo = &specialization;
         info.layout = layout_;
-        check(context.vk.vkCreateComputePipelines(context.device(), VK_NULL_HANDLE, 1, &info, nullptr, &pipeline_),
+        check(context.vk().vkCreateComputePipelines(context.device(), VK_NULL_HANDLE, 1, &info, nullptr, &pipeline_),
               "creating the compute pipeline of " + name);
         context.set_name(VK_OBJECT_TYPE_PIPELINE, reinterpret_cast<std::uint64_t>(pipeline_), name); // NOLINT
     } catch (...) {
-        context.vk.vkDestroyShaderModule(context.device(), module, nullptr);
+        context.vk().vkDestroyShaderModule(context.device(), module, nullptr);
         release();
         throw;
     }
-    context.vk.vkDestroyShaderModule(context.device(), module, nullptr);
+    context.vk().vkDestroyShaderModule(context.device(), module, nullptr);
 }
 
 Kernel::~Kernel()
@@ -110,9 +112,9 @@ void Kernel::release() noexcept
     if (context_ == nullptr) {
         return;
     }
-    context_->vk.vkDestroyPipeline(context_->device(), pipeline_, nullptr);
-    context_->vk.vkDestroyPipelineLayout(context_->device(), layout_, nullptr);
-    context_->vk.vkDestroyDescriptorSetLayout(context_->device(), set_layout_, nullptr);
+    context_->vk().vkDestroyPipeline(context_->device(), pipeline_, nullptr);
+    context_->vk().vkDestroyPipelineLayout(context_->device(), layout_, nullptr);
+    context_->vk().vkDestroyDescriptorSetLayout(context_->device(), set_layout_, nullptr);
 }
 
 } // namespace meltpoint::gpu

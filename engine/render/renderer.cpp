@@ -6,6 +6,8 @@
 #include <cstring>
 #include <limits>
 
+#include <volk.h>
+
 #include "core/error.h"
 #include "render/frame_params.h"
 #include "spirv/render/disc.frag.h"
@@ -81,7 +83,7 @@ void Renderer::write_params(gpu::Commands& commands, const shared::RenderParams&
     static_assert(sizeof(params) <= 65536 && sizeof(params) % 4 == 0, "the limits of vkCmdUpdateBuffer");
     commands.use(params_, VK_PIPELINE_STAGE_2_ALL_TRANSFER_BIT, VK_ACCESS_2_TRANSFER_WRITE_BIT, true);
     commands.flush_barriers();
-    context_->vk.vkCmdUpdateBuffer(commands.handle(), params_.handle(), 0, sizeof(params), &params);
+    context_->vk().vkCmdUpdateBuffer(commands.handle(), params_.handle(), 0, sizeof(params), &params);
 }
 
 void Renderer::draw(gpu::Commands& commands, const Frame& frame)

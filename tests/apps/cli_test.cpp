@@ -168,6 +168,7 @@ TEST_F(Cli, BadInputIsOneSentenceAndExitsWithTwo)
         expect_one_sentence(run(arguments), 2, part);
     }
     expect_one_sentence(run({"follow", "drop", "--particle", "99999999"}), 2, "drop has particles 0 to");
+    expect_one_sentence(run({"follow", "splat_sphere"}), 2, "splat_sphere has no particles to follow");
     EXPECT_FALSE(fs::exists(path("out")) && !fs::is_empty(path("out/drop")));
     EXPECT_TRUE(fs::exists("/dev/full") && !fs::is_regular_file("/dev/full"));
 }

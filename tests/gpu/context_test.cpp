@@ -2,6 +2,8 @@
 
 #include <numeric>
 
+#include <volk.h>
+
 #include "core/error.h"
 #include "gpu/buffer.h"
 #include "gpu/transfer.h"
@@ -69,8 +71,8 @@ TEST_F(ContextTest, ValidationSeesAKnownError)
     empty.size = 0; // VUID-VkBufferCreateInfo-size-00912
     empty.usage = VK_BUFFER_USAGE_STORAGE_BUFFER_BIT;
     VkBuffer buffer = VK_NULL_HANDLE;
-    if (context().vk.vkCreateBuffer(context().device(), &empty, nullptr, &buffer) == VK_SUCCESS) {
-        context().vk.vkDestroyBuffer(context().device(), buffer, nullptr);
+    if (context().vk().vkCreateBuffer(context().device(), &empty, nullptr, &buffer) == VK_SUCCESS) {
+        context().vk().vkDestroyBuffer(context().device(), buffer, nullptr);
     }
     const std::vector<std::string> messages = take_validation_messages();
     ASSERT_FALSE(messages.empty());

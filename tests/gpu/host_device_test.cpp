@@ -4,6 +4,7 @@
 #include <mutex>
 
 #include <gtest/gtest.h>
+#include <volk.h>
 
 #include "core/error.h"
 #include "gpu/context.h"
@@ -172,7 +173,7 @@ TEST(HostDevice, WhatCannotBeUsedIsRefused)
 class HostsCopy {
 public:
     HostsCopy(const HostProgram& host, const gpu::Context& context, VkDeviceSize bytes)
-        : vk_(context.vk), device_(host.handles.device), queue_(host.handles.queue),
+        : vk_(context.vk()), device_(host.handles.device), queue_(host.handles.queue),
           target(context, bytes, gpu::MemoryUse::Readback, "of the host")
     {
         VkCommandPoolCreateInfo pool{VK_STRUCTURE_TYPE_COMMAND_POOL_CREATE_INFO};
@@ -211,7 +212,7 @@ public:
     void wait() { gpu::check(vk_.vkWaitForFences(device_, 1, &fence_, VK_TRUE, UINT64_MAX), "wait"); }
 
 private:
-    const gpu::DeviceFunctions& vk_;
+    const VolkDeviceTable& vk_;
     VkDevice device_;
     VkQueue queue_;
     VkCommandPool pool_ = VK_NULL_HANDLE;

@@ -79,11 +79,19 @@ foreach(package_file IN LISTS package_files)
     endforeach()
 endforeach()
 
+# The library defines nothing under Vulkan's or volk's names: it would take the place of the host's own.
+file(GLOB_RECURSE library ${prefix}/*/libmeltpoint.a)
+execute_process(COMMAND nm --extern-only --defined-only ${library} OUTPUT_VARIABLE symbols RESULT_VARIABLE code)
+string(REGEX MATCHALL " (vk|volk)[A-Za-z0-9]+\n" taken "${symbols}")
+if(NOT code EQUAL 0 OR NOT symbols MATCHES "meltpoint_volkInitialize" OR taken)
+    message(FATAL_ERROR "the library should define volk under names of its own, and no symbol like: ${taken}")
+endif()
+
 # Every public header compiles, and none leads to what is not installed.
 file(GLOB_RECURSE headers RELATIVE ${prefix}/include ${prefix}/include/*.h)
 list(TRANSFORM headers REPLACE "(.+)" "#include <\\1>" OUTPUT_VARIABLE includes)
 list(JOIN includes "\n" includes)
-file(WRITE ${scratch}/all_headers.cpp "${includes}\n")
+file(WRITE ${scratch}/all_headers.cpp "#include <vulkan/vulkan.h> // with prototypes, beside which volk.h cannot stand\n${includes}\n")
 separate_arguments(flags UNIX_COMMAND "${CXX_FLAGS}")
 run(${CXX_COMPILER} ${flags} -std=c++20 -fsyntax-only -Wall -Wextra -Werror -Wno-missing-field-initializers
     -I${prefix}/include ${scratch}/all_headers.cpp)
