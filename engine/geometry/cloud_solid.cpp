@@ -17,6 +17,10 @@ namespace {
 // A cloud is not known more exactly, and its winding numbers cost more than a mesh's.
 constexpr VolumeAccuracy accuracy{.error = 1e-3, .first_cells = 40e3, .most_cells = 0x1p20};
 
+// Where cells overlap, there is a little inside between them even if they lie flat or face inward. It is told from a
+// body by the signed volume, which of a closed surface is all of the measured one, of half a sphere three quarters.
+constexpr double least_share = 0.25;
+
 std::vector<WindingNumber::Triangle> triangles_of(const CloudSurface& surface)
 {
     std::vector<WindingNumber::Triangle> triangles;
@@ -36,6 +40,24 @@ std::vector<WindingNumber::Triangle> triangles_of(const CloudSurface& surface)
     return triangles;
 }
 
+/// By the divergence theorem about their centroid: what lies flat has none, what faces inward less.
+double signed_volume(const std::vector<WindingNumber::Triangle>& triangles)
+{
+    double area = 0.0;
+    glm::dvec3 center(0.0);
+    double volume = 0.0;
+    glm::dvec3 normals(0.0);
+    for (const WindingNumber::Triangle& t : triangles) {
+        const glm::dvec3 normal = 0.5 * glm::cross(t[1] - t[0], t[2] - t[0]); // as long as the area
+        const glm::dvec3 middle = (t[0] + t[1] + t[2]) / 3.0;
+        area += glm::length(normal);
+        center += glm::length(normal) * middle;
+        volume += glm::dot(normal, middle - triangles[0][0]) / 3.0; // about a corner, for the sake of precision
+        normals += normal;
+    }
+    return area > 0.0 ? volume - glm::dot(normals, center / area - triangles[0][0]) / 3.0 : 0.0;
+}
+
 } // namespace
 
 CloudSolid::CloudSolid(const CloudSurface& surface) : CloudSolid(triangles_of(surface)) {}
@@ -47,12 +69,16 @@ CloudSolid::CloudSolid(std::vector<WindingNumber::Triangle> triangles)
             bounds_.extend(glm::vec3(corner));
         }
     }
+    signed_volume_ = signed_volume(triangles);
     winding_ = WindingNumber(std::move(triangles));
 }
 
 double CloudSolid::volume() const
 {
-    tbb::collaborative_call_once(measured_, [this] { volume_ = measure_volume(*this, accuracy); });
+    tbb::collaborative_call_once(measured_, [this] {
+        const double measured = signed_volume_ > 0.0 ? measure_volume(*this, accuracy) : 0.0;
+        volume_ = signed_volume_ > least_share * measured ? measured : 0.0;
+    });
     return volume_;
 }
 

@@ -17,7 +17,7 @@ public:
 
     [[nodiscard]] Aabb bounds() const override { return bounds_; }
 
-    /// Measured: see measure_volume(const Solid&).
+    /// Measured: see measure_volume(const Solid&). 0 for a cloud that lies flat or faces inward.
     [[nodiscard]] double volume() const override;
 
     [[nodiscard]] bool contains(const glm::dvec3& point) const override;
@@ -29,6 +29,7 @@ private:
     explicit CloudSolid(std::vector<WindingNumber::Triangle> triangles);
 
     Aabb bounds_;
+    double signed_volume_ = 0.0;
     WindingNumber winding_;
     mutable tbb::collaborative_once_flag measured_;
     mutable double volume_ = 0.0;

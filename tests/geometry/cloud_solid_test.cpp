@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 #include <tbb/global_control.h>
 
+#include "core/error.h"
 #include "geometry/mesh_solid.h"
 #include "geometry/volume_sampling.h"
 #include "support/clouds.h"
@@ -30,6 +31,28 @@ TEST(CloudSolid, HasTheVolumeOfTheShape)
     EXPECT_NEAR(solid_of(points_on("sphere", 4000, SurfaceMethod::Random)).volume(), ball, 0.02 * ball);
     EXPECT_NEAR(solid_of(points_on("torus", 6000, SurfaceMethod::Random)).volume(), torus, 0.02 * torus);
     EXPECT_NEAR(solid_of(points_on("cube", 6000, SurfaceMethod::BlueNoise)).volume(), 1.0, 0.02);
+}
+
+TEST(CloudSolid, WhatLiesFlatOrFacesInwardHasNoVolume)
+{
+    PointCloud inward = fibonacci_sphere(3000);
+    for (const glm::vec3& position : inward.positions) {
+        inward.normals.push_back(-position);
+    }
+    Random random(5);
+    PointCloud tilted;
+    PointCloud rough;
+    for (int i = 0; i < 3000; ++i) {
+        const auto x = static_cast<float>(random.uniform());
+        const auto y = static_cast<float>(random.uniform());
+        tilted.positions.emplace_back(x, y, 0.5f * x + 0.3f * y);
+        rough.positions.emplace_back(x, y, 0.01f * static_cast<float>(random.uniform()));
+    }
+    for (const PointCloud& cloud : {inward, tilted, rough}) {
+        const CloudSolid solid = solid_of(cloud);
+        EXPECT_EQ(solid.volume(), 0.0);
+        EXPECT_THROW(static_cast<void>(sample_volume(solid, {.amount = PointCount{1000}})), Error);
+    }
 }
 
 TEST(CloudSolid, IsFilledToItsVolume)
