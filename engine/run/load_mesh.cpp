@@ -4,6 +4,7 @@
 
 #include "geometry/builtin_meshes.h"
 #include "io/mesh_import.h"
+#include "run/coarse_file.h"
 
 namespace meltpoint {
 
@@ -20,7 +21,12 @@ bool is_builtin(const std::string& name)
 
 TriangleMesh load_mesh(const std::string& name)
 {
-    return is_builtin(name) ? builtin_mesh(std::string_view(name).substr(builtin.size())) : import_mesh(name);
+    if (is_builtin(name)) {
+        return builtin_mesh(std::string_view(name).substr(builtin.size()));
+    }
+    TriangleMesh mesh = import_mesh(name);
+    warn_of_coarse_file(mesh.positions, name);
+    return mesh;
 }
 
 } // namespace meltpoint
