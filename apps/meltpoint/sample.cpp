@@ -1,5 +1,6 @@
 #include <chrono>
 #include <cmath>
+#include <cstdint>
 #include <filesystem>
 #include <map>
 #include <memory>
@@ -32,6 +33,8 @@ const std::map<std::string, SurfaceMethod> method_names{{"random", SurfaceMethod
                                                         {"blue-noise", SurfaceMethod::BlueNoise}};
 const std::map<std::string, Lattice> lattice_names{
     {"cubic", Lattice::Cubic}, {"bcc", Lattice::Bcc}, {"fcc", Lattice::Fcc}, {"blue-noise", Lattice::BlueNoise}};
+
+constexpr std::uint64_t most_seed = 1'000'000'000'000'000'000; // as scenes have it
 
 template <class Value>
 std::vector<std::string> names_of(const std::map<std::string, Value>& values)
@@ -180,6 +183,18 @@ int sample(SampleOptions options, bool quiet)
     return exit_done;
 }
 
+/// As CLI::Range, but refuses what is not a number and names the bounds in few digits.
+CLI::Validator number_in(double low, double high)
+{
+    const std::string range = fmt::format("[{:g} - {:g}]", low, high);
+    return {[=](const std::string& text) {
+                double value = 0.0;
+                const bool valid = CLI::detail::lexical_cast(text, value) && value >= low && value <= high;
+                return valid ? std::string() : fmt::format("Value {} not in range {}", text, range);
+            },
+            "FLOAT in " + range};
+}
+
 } // namespace
 
 void add_sample(CLI::App& app, const GlobalOptions& global, int& exit_code)
@@ -206,7 +221,7 @@ void add_sample(CLI::App& app, const GlobalOptions& global, int& exit_code)
             ->check(CLI::Range(std::size_t{1}, std::size_t{1} << 28));
     command->add_option("--spacing", options->spacing, "Distance between points in m, instead of their number")
         ->type_name("D")
-        ->check(CLI::PositiveNumber)
+        ->check(number_in(1e-9, 1e9))
         ->excludes(count);
     CLI::Option* volume = command->add_flag("--volume", request.volume, "Points inside, which fill the shape");
     command
@@ -220,10 +235,10 @@ void add_sample(CLI::App& app, const GlobalOptions& global, int& exit_code)
         ->needs(volume);
     command->add_option("--seed", request.seed, "The same seed gives the same points [1]")
         ->type_name("S")
-        ->check(CLI::NonNegativeNumber);
+        ->check(CLI::Range(std::uint64_t{0}, most_seed));
     command->add_option("--rest-density", request.rest_density, "In kg/m^3, for the mass of a particle [1000]")
         ->type_name("R")
-        ->check(CLI::Range(1e-6, 1e6));
+        ->check(number_in(1e-6, 1e6));
     command->add_flag("--json", options->json, "Prints all that was measured as JSON, SI units");
     command->add_flag("--force", options->force, "Replaces an existing file");
     command->callback([options, &global, &exit_code] { exit_code = sample(*options, global.quiet); });

@@ -226,6 +226,19 @@ TEST_F(SampleCli, ACloudIsFilled)
     EXPECT_EQ(sample({"floor.xyz", "-o", "floor.ply"}).exit_code, 0);
 }
 
+TEST_F(SampleCli, WhatLiesTooFarFromTheOriginForItsSizeIsWarnedOf)
+{
+    write("near.obj", "v 500 0 0\nv 501 0 0\nv 500 1 0\nf 1 2 3\n");
+    write("far.obj", "v 5400000 0 0\nv 5400001 0 0\nv 5400000 1 0\nf 1 2 3\n");
+    write("far.xyz", "5400000 0 0\n5400001 0 0\n5400000 1 0\n");
+    EXPECT_EQ(sample({"near.obj", "-o", "near.ply"}).err, "");
+    for (const std::string name : {"far.obj", "far.xyz"}) {
+        const Result result = sample({name, "-o", name + ".ply", "-q"});
+        EXPECT_EQ(result.exit_code, 0);
+        EXPECT_TRUE(result.err.starts_with("warning: " + name + ": lies 5.4e+06 m from the origin")) << result.err;
+    }
+}
+
 TEST_F(SampleCli, ACloudIsSampledAnewWhereACountASpacingOrAMethodIsGiven)
 {
     write("cloud.ply", sphere_ply(1000, true));
@@ -289,6 +302,10 @@ TEST_F(SampleCli, WrongUsageExitsWithTwo)
                                 {"builtin:cube", "-o", "x.ply", "--spacing", "0"},
                                 {"builtin:cube", "-o", "x.ply", "--spacing", "-1"},
                                 {"builtin:cube", "-o", "x.ply", "--spacing", "nan"},
+                                {"builtin:cube", "-o", "x.ply", "--spacing", "inf"},
+                                {"builtin:cube", "-o", "x.ply", "--volume", "--rest-density", "nan"},
+                                {"builtin:cube", "-o", "x.ply", "--seed", "99999999999999999999"},
+                                {"builtin:cube", "-o", ""},
                                 {"builtin:cube", "-o", "x.ply", "--spacing", "1e-9"},
                                 {"builtin:cube", "-o", "x.ply", "--method", "hexagonal"},
                                 {"builtin:cube", "-o", "x.ply", "--method", "0"},
