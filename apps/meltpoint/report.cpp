@@ -85,6 +85,10 @@ int run_report(const ReportOptions& options, bool quiet)
         readme = read_text(options.readme);
         const std::vector<std::string> present = report::section_names(readme, options.readme);
         check_names(present, options.readme);
+        if (present.empty()) {
+            throw input_error("{}: has no section to replace: none begins with a line <!-- report:NAME -->",
+                              options.readme);
+        }
         if (options.only.empty()) {
             wanted = present;
         }

@@ -23,9 +23,13 @@ std::string_view take_line(std::string_view& rest)
     return line;
 }
 
+/// Of any system's making: a line that ends with a carriage return too is the same mark.
 std::string_view without_newline(std::string_view line)
 {
-    return line.ends_with('\n') ? line.substr(0, line.size() - 1) : line;
+    for (const char end : {'\n', '\r'}) {
+        line.remove_suffix(line.ends_with(end) ? 1 : 0);
+    }
+    return line;
 }
 
 /// The name in a line that begins a section; empty in any other.

@@ -40,17 +40,19 @@ TEST_F(ReportCli, MistakesAreOneSentenceAndLeaveNothing)
 {
     test::write_bytes(path("unknown.md"), "<!-- report:splat -->\n<!-- report end -->\n");
     test::write_bytes(path("open.md"), "<!-- report:splats -->\n");
+    test::write_bytes(path("plain.md"), "no section\n");
     const std::vector<std::pair<test::Arguments, std::string>> mistakes = {
         {{"--only", "splat"}, "did you mean \"splats\"?"},
         {{"--readme", "missing.md"}, "missing.md"},
         {{"--readme", "unknown.md"}, "unknown.md"},
         {{"--readme", "open.md"}, "open.md:1"},
+        {{"--readme", "plain.md"}, "plain.md: has no section to replace"},
         {{"--readme", "."}, "cannot be read"},
     };
     for (const auto& [arguments, part] : mistakes) {
         test::expect_one_sentence(report(arguments), 2, part);
     }
-    EXPECT_EQ(files("."), (std::vector<std::string>{"open.md", "unknown.md"}));
+    EXPECT_EQ(files("."), (std::vector<std::string>{"open.md", "plain.md", "unknown.md"}));
 }
 
 } // namespace

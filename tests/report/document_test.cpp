@@ -56,6 +56,12 @@ TEST(ReportDocument, AWrittenSectionIsFoundAgain)
               (std::vector<std::string>{"one", "two"}));
 }
 
+TEST(ReportDocument, CarriageReturnsHideNoSection)
+{
+    EXPECT_EQ(report::section_names("<!-- report:one -->\r\nold\r\n<!-- report end -->\r\n", "file.md"),
+              (std::vector<std::string>{"one"}));
+}
+
 TEST(ReportDocument, MistakesHaveTheirLine)
 {
     EXPECT_EQ(complaint_of("a\n<!-- report:one -->\nb\n"),
