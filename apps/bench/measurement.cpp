@@ -11,6 +11,7 @@
 #include "bench/yardstick.h"
 #include "core/error.h"
 #include "core/log.h"
+#include "shared/particle_state.h"
 
 namespace meltpoint::bench {
 
@@ -144,6 +145,10 @@ std::unique_ptr<Yardstick> make_yardstick(const ParticleSet& state, const shared
 {
     if (options.tension) {
         log_warning("the yardstick has no surface tension: this scene is measured without it");
+        return nullptr;
+    }
+    if (std::ranges::any_of(state.attributes, shared::is_boundary)) {
+        log_warning("the yardstick has no colliders: this scene is measured without it");
         return nullptr;
     }
     const std::string missing = Yardstick::missing_feature();

@@ -153,7 +153,7 @@ void add_bench(CLI::App& app, const GlobalOptions& /*global*/, int& exit_code)
                      "Sizes of the block of fluid that is let go in a box three times as long [32768]")
         ->type_name("N,N,...")
         ->delimiter(',')
-        ->check(CLI::Range(64u, 1u << 30u));
+        ->check(CLI::Range(bench::fewest_particles, 1u << 30u));
     command
         ->add_option("--steps", options->steps,
                      "Measured steps, in up to seven portions, of which the median counts [70]")

@@ -96,12 +96,31 @@ TEST_F(Bench, RunsAScene)
     EXPECT_GT(document["results"][0]["particles"], 1000);
 }
 
+TEST_F(Bench, ASceneWithCollidersIsMeasuredWithoutTheYardstick)
+{
+    ASSERT_EQ(run("--scene teapot_floor --steps 1 --warm-up 0 --json '" + path("bench.json") + "'"), 0) << err_;
+    EXPECT_NE(err_.find("no colliders"), std::string::npos) << err_;
+    const nlohmann::json document = nlohmann::json::parse(test::read_bytes(path("bench.json")));
+    ASSERT_EQ(document["results"].size(), 1u);
+    EXPECT_GT(document["results"][0]["step_ms"], 0.0);
+    EXPECT_TRUE(document["results"][0]["yardstick_step_ms"].is_null());
+    EXPECT_TRUE(document["results"][0]["speedup"].is_null());
+}
+
+TEST_F(Bench, TheSmallestBlockFitsItsBox)
+{
+    EXPECT_EQ(run("--particles 65 --steps 1 --warm-up 0"), 0) << err_;
+    EXPECT_EQ(run("--particles 64"), 2);
+    EXPECT_NE(err_.find("not in range 65"), std::string::npos) << err_;
+}
+
 TEST_F(Bench, WrongUseIsOneSentenceAndExitsWithTwo)
 {
     for (const std::string arguments :
-         {"--particles 0", "--particles -5", "--particles many", "--particles 1000,x", "--particles 99999999999",
-          "--steps 0", "--steps x", "--tile 0", "--tile 17", "--warm-up -1", "--scene no_such_scene",
-          "--scene drop --particles 1000", "--particles 1000000000", "--device no_such_device", "--json", "surplus"}) {
+         {"--particles 0", "--particles -5", "--particles many", "--particles 1000,x",
+          "--particles 99999999999", "--steps 0", "--steps x", "--tile 0", "--tile 17", "--warm-up -1",
+          "--scene no_such_scene", "--scene drop --particles 1000", "--particles 1000000000", "--device no_such_device",
+          "--json", "surplus"}) {
         EXPECT_EQ(run(arguments), 2) << arguments << "\n" << err_;
         EXPECT_FALSE(err_.empty()) << arguments;
         EXPECT_TRUE(out_.empty()) << arguments << "\n" << out_;
