@@ -3,12 +3,16 @@
 #include <cstdio>
 #include <exception>
 #include <new>
+#include <string>
 #include <system_error>
+#include <vector>
 
 #include <fcntl.h>
 #include <unistd.h>
 
 #include <CLI/CLI.hpp>
+#include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include "commands.h"
 #include "core/error.h"
@@ -18,6 +22,23 @@
 namespace {
 
 using namespace meltpoint; // NOLINT(google-build-using-namespace): this file is the program
+
+std::vector<CLI::App*> subcommands_of(CLI::App& app)
+{
+    return app.get_subcommands([](const CLI::App*) { return true; });
+}
+
+/// What a shell makes of a variable that is not set would else read as an option that is not given.
+void refuse_empty_values(CLI::App& subcommand)
+{
+    const CLI::Validator not_empty(
+        [](std::string& value) { return std::string(value.empty() ? "must not be empty" : ""); }, "");
+    for (CLI::Option* option : subcommand.get_options()) {
+        if (option->get_items_expected_max() > 0) {
+            option->check(not_empty);
+        }
+    }
+}
 
 int run(int argc, char** argv)
 {
@@ -39,7 +60,8 @@ int run(int argc, char** argv)
     program::add_bench(app, global, exit_code);
     program::add_report(app, global, exit_code);
     program::add_info(app, global, exit_code);
-    for (CLI::App* subcommand : app.get_subcommands([](const CLI::App*) { return true; })) {
+    for (CLI::App* subcommand : subcommands_of(app)) {
+        refuse_empty_values(*subcommand);
         subcommand->footer("-q, --quiet, before or after the subcommand: no progress or notes on stderr.");
     }
 
@@ -49,8 +71,11 @@ int run(int argc, char** argv)
     } catch (const CLI::ParseError& error) {
         const bool asked_for = error.get_exit_code() == static_cast<int>(CLI::ExitCodes::Success);
         if (!asked_for && argc > 1 && app.get_subcommands().empty() && argv[1][0] != '-') {
-            throw input_error(
-                "there is no subcommand \"{}\"; there are render, sample, compare, follow, bench and info", argv[1]);
+            std::vector<std::string> names;
+            for (const CLI::App* subcommand : subcommands_of(app)) {
+                names.push_back(subcommand->get_name());
+            }
+            throw input_error("there is no subcommand \"{}\"; there are {}", argv[1], fmt::join(names, ", "));
         }
         app.exit(error); // prints help and version to stdout, mistakes to stderr
         return asked_for ? program::exit_done : program::exit_bad_input;

@@ -111,6 +111,12 @@ TEST_F(Cli, WrongUsageExitsWithTwo)
                                                              {"render", "drop", "--frames", "4", "--frames", "5"},
                                                              {"render", "drop", "--particles", "xyz"},
                                                              {"render", "drop", "--out"},
+                                                             {"render", "drop", "--out", ""},
+                                                             {"render", "drop", "--stats", ""},
+                                                             {"render", "drop", "--mesh", ""},
+                                                             {"bench", "--scene", ""},
+                                                             {"report", "--out", ""},
+                                                             {"info", "--device", ""},
                                                              {"compare", "drop", "--steps", "-1"},
                                                              {"follow", "drop", "--steps", "0"},
                                                              {"nonsense"}}) {
@@ -119,7 +125,8 @@ TEST_F(Cli, WrongUsageExitsWithTwo)
         EXPECT_EQ(result.out, "") << testing::PrintToString(arguments);
         EXPECT_NE(result.err, "") << testing::PrintToString(arguments);
     }
-    expect_one_sentence(run({"nonsense"}), 2, "there is no subcommand \"nonsense\"");
+    expect_one_sentence(run({"nonsense"}), 2,
+                        "there is no subcommand \"nonsense\"; there are render, sample, ");
     EXPECT_TRUE(files(".").empty());
 }
 
