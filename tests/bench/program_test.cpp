@@ -117,10 +117,9 @@ TEST_F(Bench, TheSmallestBlockFitsItsBox)
 TEST_F(Bench, WrongUseIsOneSentenceAndExitsWithTwo)
 {
     for (const std::string arguments :
-         {"--particles 0", "--particles -5", "--particles many", "--particles 1000,x",
-          "--particles 99999999999", "--steps 0", "--steps x", "--tile 0", "--tile 17", "--warm-up -1",
-          "--scene no_such_scene", "--scene drop --particles 1000", "--particles 1000000000", "--device no_such_device",
-          "--json", "surplus"}) {
+         {"--particles 0", "--particles -5", "--particles many", "--particles 1000,x", "--particles 99999999999",
+          "--steps 0", "--steps x", "--tile 0", "--tile 17", "--warm-up -1", "--scene no_such_scene",
+          "--scene drop --particles 1000", "--particles 1000000000", "--device no_such_device", "--json", "surplus"}) {
         EXPECT_EQ(run(arguments), 2) << arguments << "\n" << err_;
         EXPECT_FALSE(err_.empty()) << arguments;
         EXPECT_TRUE(out_.empty()) << arguments << "\n" << out_;
