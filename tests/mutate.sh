@@ -485,6 +485,11 @@ mutation "clouds: points in one place are all kept" \
     'std::vector<std::uint8_t> kept(cloud.size(), 0);' \
     'std::vector<std::uint8_t> kept(cloud.size(), 1);' \
     unit_tests 'CloudSurface.PointsInOnePlaceAreOne'
+mutation "clouds: a tilted plane is a slab" \
+    engine/geometry/cloud_solid.cpp \
+    'least_share = 0.25' \
+    'least_share = -1.0' \
+    unit_tests 'CloudSolid.WhatLiesFlat*'
 mutation "clouds: all points count with the same area" \
     engine/geometry/cloud_solid.cpp \
     'std::sqrt(area * 4.0' \

@@ -62,14 +62,13 @@ double signed_volume(const std::vector<WindingNumber::Triangle>& triangles)
 
 CloudSolid::CloudSolid(const CloudSurface& surface) : CloudSolid(triangles_of(surface)) {}
 
-CloudSolid::CloudSolid(std::vector<WindingNumber::Triangle> triangles)
+CloudSolid::CloudSolid(std::vector<WindingNumber::Triangle> triangles) : signed_volume_(signed_volume(triangles))
 {
     for (const WindingNumber::Triangle& triangle : triangles) {
         for (const glm::dvec3& corner : triangle) {
             bounds_.extend(glm::vec3(corner));
         }
     }
-    signed_volume_ = signed_volume(triangles);
     winding_ = WindingNumber(std::move(triangles));
 }
 

@@ -29,7 +29,7 @@ private:
     explicit CloudSolid(std::vector<WindingNumber::Triangle> triangles);
 
     Aabb bounds_;
-    double signed_volume_ = 0.0;
+    double signed_volume_;
     WindingNumber winding_;
     mutable tbb::collaborative_once_flag measured_;
     mutable double volume_ = 0.0;
