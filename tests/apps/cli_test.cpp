@@ -125,8 +125,9 @@ TEST_F(Cli, WrongUsageExitsWithTwo)
         EXPECT_EQ(result.out, "") << testing::PrintToString(arguments);
         EXPECT_NE(result.err, "") << testing::PrintToString(arguments);
     }
-    expect_one_sentence(run({"nonsense"}), 2,
-                        "there is no subcommand \"nonsense\"; there are render, sample, ");
+    expect_one_sentence(
+        run({"nonsense"}), 2,
+        "there is no subcommand \"nonsense\"; there are render, sample, compare, follow, bench, report, info");
     EXPECT_TRUE(files(".").empty());
 }
 
