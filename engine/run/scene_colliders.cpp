@@ -3,10 +3,14 @@
 #include <utility>
 #include <variant>
 
+#include <fmt/format.h>
+
 #include "core/aabb.h"
 #include "core/error.h"
+#include "core/log.h"
 #include "geometry/cloud_solid.h"
 #include "geometry/cloud_surface.h"
+#include "geometry/mesh_facts.h"
 #include "geometry/surface_sampling.h"
 #include "run/placed_mesh.h"
 
@@ -41,6 +45,17 @@ std::vector<glm::vec3> sample_collider(const Scene& scene, std::size_t c, const 
     return sample_surface(surface, request).cloud.positions;
 }
 
+/// The winding number in a closed mesh is -1 where all triangles are turned: it keeps no fluid out, whatever was asked.
+void warn_if_inside_out(const Scene& scene, std::size_t c, const std::variant<TriangleMesh, CloudSurface>& surface)
+{
+    const auto* mesh = std::get_if<TriangleMesh>(&surface);
+    if (scene.colliders[c].solid && mesh != nullptr && signed_volume(*mesh) < 0.0 &&
+        mesh_facts(weld(*mesh)).boundary_edges == 0) {
+        log_warning(
+            fmt::format("{}: the triangles of collider.{} face inward: fluid may start inside of it", scene.name, c));
+    }
+}
+
 /// Null for a shell.
 std::shared_ptr<const Solid> inside_of(const ColliderBody& collider,
                                        const std::variant<TriangleMesh, CloudSurface>& surface)
@@ -63,6 +78,7 @@ std::vector<ColliderSamples> sample_colliders(const Scene& scene, std::uint64_t 
     for (std::size_t c = 0; c < scene.colliders.size(); ++c) {
         const ColliderBody& collider = scene.colliders[c];
         const std::variant<TriangleMesh, CloudSurface> surface = placed_surface(collider.shape);
+        warn_if_inside_out(scene, c, surface);
         std::vector<glm::vec3> points =
             std::visit([&](const auto& each) { return sample_collider(scene, c, each, limit); }, surface);
         Aabb box;

@@ -158,6 +158,29 @@ TEST(SceneColliders, AMeshIsSolidWhereItsWindingNumberSaysSo)
 }
 
 // A scanned ball does what a ball does, wherever its own points lie.
+TEST(SceneColliders, AClosedMeshThatIsInsideOutIsWarnedOf)
+{
+    const test::ScratchFolder folder;
+    const std::string corners = "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\n";
+    const std::string inward = corners + "f 1 2 3\nf 1 4 2\nf 1 3 4\nf 2 4 3\n";
+    const std::string outward = corners + "f 1 3 2\nf 1 2 4\nf 1 4 3\nf 2 3 4\n";
+    const std::string open = corners + "f 1 2 3\nf 1 4 2\nf 1 3 4\n";
+    const auto warning_of = [&](const std::string& mesh, bool solid) {
+        const std::string path = (folder / "mesh.obj").string();
+        test::write_bytes(path, mesh);
+        Scene scene = block_scene();
+        scene.colliders.push_back({.shape = MeshShape{.mesh = path, .position = {0.0f, 1.4f, 0.0f}}, .solid = solid});
+        testing::internal::CaptureStderr();
+        static_cast<void>(make_particles(scene, no_limit));
+        return testing::internal::GetCapturedStderr();
+    };
+    EXPECT_EQ(warning_of(inward, true),
+              "warning: test: the triangles of collider.0 face inward: fluid may start inside of it\n");
+    EXPECT_EQ(warning_of(inward, false), "");
+    EXPECT_EQ(warning_of(outward, true), "");
+    EXPECT_EQ(warning_of(open, true), "");
+}
+
 TEST(SceneColliders, AScanIsSampledAnewAndSolid)
 {
     const test::ScratchFolder folder;
