@@ -30,6 +30,6 @@ for name in "${names[@]}"; do
         result="FOUND $(grep -m 1 '^SUMMARY' "$log" || tail -n 1 "$log")"
         failed=1
     }
-    printf '%-12s %10s runs  %s\n' "$name" "$(sed -n 's/^#\([0-9]*\).*/\1/p' "$log" | tail -n 1)" "$result"
+    printf '%-12s %10s runs  %s\n' "$name" "$(sed -n 's/^#\([0-9][0-9]*\).*/\1/p' "$log" | tail -n 1)" "$result"
 done
 exit $failed
