@@ -302,6 +302,16 @@ mutation "scenes: normals of a scan do not turn along with it" \
     'glm::mat3(matrix) * normal' \
     'normal' \
     unit_tests 'SceneColliders.AScanIsSampledAnewAndSolid'
+mutation "scenes: scans keep their size" \
+    engine/run/placed_mesh.cpp \
+    'x = glm::vec3(matrix * glm::vec4(x, 1.0f));' \
+    'x = x - box.center() + shape.position;' \
+    unit_tests 'SceneParticles.AScan*'
+mutation "scenes: a scan is measured by its box" \
+    engine/run/mesh_scene.cpp \
+    '.volume = CloudSolid(make_cloud_surface(cloud, name)).volume()' \
+    '.volume = double(box.size().x * box.size().y * box.size().z)' \
+    unit_tests 'MeshScene.AScanIsDroppedAsItsMeshIs'
 mutation "scenes: blue noise is relaxed as if there were no walls" \
     engine/run/scene_particles.cpp \
     'request.relaxation.mirrors = Aabb{scene.domain.min, scene.domain.max};' \

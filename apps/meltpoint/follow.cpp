@@ -2,6 +2,8 @@
 #include <cstring>
 #include <memory>
 #include <stdexcept>
+#include <string>
+#include <variant>
 
 #include <fmt/format.h>
 
@@ -9,11 +11,12 @@
 #include "conformance/device.h"
 #include "core/error.h"
 #include "exit_codes.h"
+#include "geometry/cloud_solid.h"
 #include "geometry/measure_volume.h"
 #include "render/renderer.h"
 #include "run/fluid_settings.h"
 #include "run/frame_view.h"
-#include "run/load_mesh.h"
+#include "run/load_surface.h"
 #include "run/scene_particles.h"
 #include "scene_options.h"
 #include "shared/neighbor_count.h"
@@ -40,14 +43,25 @@ std::string text(const glm::vec3& v)
     return fmt::format("{:.6g} {:.6g} {:.6g}", v.x, v.y, v.z);
 }
 
+void print_model(const std::string& name)
+{
+    const std::variant<TriangleMesh, PointCloud> model = load_surface(name);
+    if (const auto* mesh = std::get_if<TriangleMesh>(&model)) {
+        print("mesh", "{}, {} vertices, {} triangles, {:.6g} m^3", name, mesh->positions.size(), mesh->triangles.size(),
+              measure_volume(*mesh));
+    } else {
+        const auto& cloud = std::get<PointCloud>(model);
+        print("scan", "{}, {} points, {:.6g} m^3", name, cloud.size(),
+              CloudSolid(make_cloud_surface(cloud, name)).volume());
+    }
+}
+
 void print_start(const Scene& scene, const ParticleSet& initial, std::uint32_t particle)
 {
     print("scene", "{}, {} fluid", scene.name, scene.fluids.size());
     for (const FluidBody& body : scene.fluids) {
         if (const auto* shape = std::get_if<MeshShape>(&body.shape)) {
-            const TriangleMesh mesh = load_mesh(shape->mesh);
-            print("mesh", "{}, {} vertices, {} triangles, {:.6g} m^3", shape->mesh, mesh.positions.size(),
-                  mesh.triangles.size(), measure_volume(mesh));
+            print_model(shape->mesh);
         }
     }
     print("sample", "{} particles, spacing {:.6g} m", initial.size(), scene.particles.spacing);

@@ -67,26 +67,6 @@ void check_output(const SampleOptions& options)
     }
 }
 
-/// What was done to a cloud that its file does not say; empty where nothing was.
-std::string note_of(const CloudFacts& facts)
-{
-    std::vector<std::string> notes;
-    if (facts.estimated > 0) {
-        const std::string outside = facts.pieces == 0   ? "oriented as the given ones"
-                                    : facts.pieces == 1 ? "oriented outward"
-                                                        : fmt::format("oriented outward in {} pieces", facts.pieces);
-        notes.push_back(fmt::format("{} of {} normals were missing: they are estimated from nearest neighbors and {}",
-                                    facts.estimated, facts.points, outside));
-    }
-    if (facts.unknown > 0) {
-        notes.push_back(fmt::format("{} points lie on lines and stay without a normal", facts.unknown));
-    }
-    if (facts.duplicates > 0) {
-        notes.push_back(fmt::format("{} points in the place of another are left out", facts.duplicates));
-    }
-    return fmt::format("{}", fmt::join(notes, "; "));
-}
-
 nlohmann::ordered_json json_of(const CloudFacts& facts)
 {
     return {{"points", facts.points},

@@ -20,8 +20,8 @@ void add_scene_options(CLI::App& command, SceneOptions& options)
 {
     command
         .add_option("SCENE", options.scene,
-                    "A scene file (.toml), the name of a built-in scene, or a mesh (a file or builtin:NAME), which is "
-                    "filled with fluid and dropped")
+                    "A scene file (.toml), the name of a built-in scene, or a mesh or a scan (a file or "
+                    "builtin:NAME), which is filled with fluid and dropped")
         ->required();
     command
         .add_option("--set", options.overrides,
@@ -32,8 +32,8 @@ void add_scene_options(CLI::App& command, SceneOptions& options)
     command
         .add_option(
             "--mesh", options.mesh,
-            "A mesh (a file or builtin:NAME) that takes the place of every mesh of the scene, with its size and "
-            "place")
+            "A mesh or a scan (a file or builtin:NAME) that takes the place of every mesh of the scene, with its "
+            "size and place")
         ->type_name("MESH");
     add_device_options(command, options);
 }

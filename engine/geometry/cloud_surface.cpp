@@ -6,6 +6,7 @@
 #include <utility>
 #include <vector>
 
+#include <fmt/ranges.h>
 #include <tbb/parallel_sort.h>
 
 #include "core/aabb.h"
@@ -102,6 +103,25 @@ void complete_normals(std::vector<glm::vec3>& normals, std::span<const glm::vec3
 }
 
 } // namespace
+
+std::string note_of(const CloudFacts& facts)
+{
+    std::vector<std::string> notes;
+    if (facts.estimated > 0) {
+        const std::string outside = facts.pieces == 0   ? "oriented as the given ones"
+                                    : facts.pieces == 1 ? "oriented outward"
+                                                        : fmt::format("oriented outward in {} pieces", facts.pieces);
+        notes.push_back(fmt::format("{} of {} normals were missing: they are estimated from nearest neighbors and {}",
+                                    facts.estimated, facts.points, outside));
+    }
+    if (facts.unknown > 0) {
+        notes.push_back(fmt::format("{} points lie on lines and stay without a normal", facts.unknown));
+    }
+    if (facts.duplicates > 0) {
+        notes.push_back(fmt::format("{} points in the place of another are left out", facts.duplicates));
+    }
+    return fmt::format("{}", fmt::join(notes, "; "));
+}
 
 CloudSurface make_cloud_surface(PointCloud cloud, std::string_view name)
 {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <string>
 #include <string_view>
 
 #include "geometry/cloud_cells.h"
@@ -16,6 +17,9 @@ struct CloudFacts {
     std::size_t pieces = 0;     ///< of the surface that got their outside by themselves, not from given normals
     std::size_t unknown = 0;    ///< points without a normal in the end: they lie on a line with all their neighbors
 };
+
+/// What was done to a cloud that its file does not say, for a person; empty where nothing was.
+[[nodiscard]] std::string note_of(const CloudFacts& facts);
 
 /// A cloud of points as a surface.
 struct CloudSurface {

@@ -4,14 +4,18 @@
 #include <cmath>
 #include <filesystem>
 #include <optional>
+#include <string_view>
+#include <variant>
 
 #include <fmt/ranges.h>
 
+#include "core/aabb.h"
 #include "core/error.h"
 #include "core/nearest_name.h"
 #include "geometry/builtin_meshes.h"
-#include "geometry/volume_sampling.h"
-#include "run/load_mesh.h"
+#include "geometry/cloud_solid.h"
+#include "geometry/measure_volume.h"
+#include "run/load_surface.h"
 #include "scene/key_table.h"
 #include "scene/scene_file.h"
 
@@ -36,28 +40,48 @@ bool is_scene_file(const std::filesystem::path& path)
     return path.extension() == ".toml";
 }
 
+/// What a scene is made to fit.
+struct Model {
+    std::string_view what; ///< for a person
+    glm::vec3 extent;      ///< m
+    double volume;         ///< m^3
+};
+
+Model model_of(const TriangleMesh& mesh, const std::string& /*name*/)
+{
+    return {.what = "mesh", .extent = bounds(mesh).size(), .volume = measure_volume(mesh)};
+}
+
+Model model_of(const PointCloud& cloud, const std::string& name)
+{
+    Aabb box;
+    for (const glm::vec3& x : cloud.positions) {
+        box.extend(x);
+    }
+    return {.what = "scan", .extent = box.size(), .volume = CloudSolid(make_cloud_surface(cloud, name)).volume()};
+}
+
 } // namespace
 
 Scene mesh_scene(const std::string& name)
 {
-    const TriangleMesh mesh = load_mesh(name);
-    const glm::vec3 extent = bounds(mesh).size();
-    const double volume = measure_volume(mesh);
+    const auto [what, extent, volume] =
+        std::visit([&](const auto& each) { return model_of(each, name); }, load_surface(name));
     if (!(volume > 0.0)) {
-        throw input_error("{}: the mesh encloses no volume that could be filled", name);
+        throw input_error("{}: the {} encloses no volume that could be filled{}", name, what,
+                          what == "scan" ? ": it is flat, or its normals face inward" : "");
     }
     const float largest = std::max({extent.x, extent.y, extent.z});
     if (largest < smallest_mesh || largest > largest_mesh) {
-        throw input_error(
-            "{}: the mesh is {:.4g} m large, but only meshes of {} m to {} m can be dropped (a scene file "
-            "can scale it: fluid.size)",
-            name, largest, smallest_mesh, largest_mesh);
+        throw input_error("{}: the {} is {:.4g} m large, but only what is {} m to {} m large can be dropped (a scene "
+                          "file can scale it: fluid.size)",
+                          name, what, largest, smallest_mesh, largest_mesh);
     }
     const double similarity = static_cast<double>(largest) / model_size;
 
     Scene scene;
     scene.name = name.starts_with("builtin:") ? name.substr(8) : std::filesystem::path(name).stem().string();
-    scene.description = "A mesh filled with fluid, dropped into a box.";
+    scene.description = fmt::format("A {} filled with fluid, dropped into a box.", what);
     scene.particles.spacing = static_cast<float>(std::cbrt(volume / wanted_particles));
     scene.physics.viscosity =
         static_cast<float>(std::min(model_viscosity * std::pow(similarity, 1.5), largest_viscosity));

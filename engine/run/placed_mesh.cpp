@@ -3,12 +3,14 @@
 #include <algorithm>
 #include <utility>
 
+#include <fmt/format.h>
 #include <glm/gtc/matrix_transform.hpp>
 
+#include "core/log.h"
 #include "core/overloaded.h"
 #include "geometry/builtin_meshes.h"
+#include "geometry/cloud_solid.h"
 #include "geometry/mesh_solid.h"
-#include "run/load_mesh.h"
 #include "run/load_surface.h"
 
 namespace meltpoint {
@@ -50,15 +52,21 @@ CloudSurface placed(const MeshShape& shape, PointCloud cloud)
             normal = glm::normalize(glm::mat3(matrix) * normal);
         }
     }
-    return make_cloud_surface(std::move(cloud), shape.mesh);
+    CloudSurface surface = make_cloud_surface(std::move(cloud), shape.mesh);
+    if (const std::string note = note_of(surface.facts); !note.empty()) {
+        log_info(fmt::format("{}: {}", shape.mesh, note));
+    }
+    return surface;
+}
+
+std::variant<TriangleMesh, CloudSurface> placed_surface(const MeshShape& shape)
+{
+    using Result = std::variant<TriangleMesh, CloudSurface>;
+    return std::visit([&](auto loaded) -> Result { return placed(shape, std::move(loaded)); },
+                      load_surface(shape.mesh));
 }
 
 } // namespace
-
-TriangleMesh placed_mesh(const MeshShape& shape)
-{
-    return placed(shape, load_mesh(shape.mesh));
-}
 
 TriangleMesh placed_mesh(const BlockShape& shape)
 {
@@ -90,12 +98,21 @@ TriangleMesh placed_mesh(const SphereShape& shape)
 std::variant<TriangleMesh, CloudSurface> placed_surface(const BodyShape& shape)
 {
     using Result = std::variant<TriangleMesh, CloudSurface>;
-    const auto* mesh = std::get_if<MeshShape>(&shape);
-    if (mesh == nullptr) {
-        return std::visit([](const auto& each) -> Result { return placed_mesh(each); }, shape);
-    }
-    return std::visit([&](auto loaded) -> Result { return placed(*mesh, std::move(loaded)); },
-                      load_surface(mesh->mesh));
+    return std::visit(Overloaded{
+                          [](const MeshShape& mesh) { return placed_surface(mesh); },
+                          [](const auto& each) -> Result { return placed_mesh(each); },
+                      },
+                      shape);
+}
+
+std::unique_ptr<Solid> solid_in(const std::variant<TriangleMesh, CloudSurface>& surface)
+{
+    using Result = std::unique_ptr<Solid>;
+    return std::visit(Overloaded{
+                          [](const TriangleMesh& mesh) -> Result { return std::make_unique<MeshSolid>(weld(mesh)); },
+                          [](const CloudSurface& cloud) -> Result { return std::make_unique<CloudSolid>(cloud); },
+                      },
+                      surface);
 }
 
 std::unique_ptr<Solid> placed_solid(const BodyShape& shape)
@@ -107,7 +124,7 @@ std::unique_ptr<Solid> placed_solid(const BodyShape& shape)
                 return std::make_unique<BoxSolid>(Aabb{block.min, block.max});
             },
             [](const SphereShape& ball) -> Result { return std::make_unique<BallSolid>(ball.center, ball.radius); },
-            [](const MeshShape& mesh) -> Result { return std::make_unique<MeshSolid>(weld(placed_mesh(mesh))); },
+            [](const MeshShape& mesh) { return solid_in(placed_surface(mesh)); },
         },
         shape);
 }

@@ -8,7 +8,6 @@
 #include "core/aabb.h"
 #include "core/error.h"
 #include "core/log.h"
-#include "geometry/cloud_solid.h"
 #include "geometry/cloud_surface.h"
 #include "geometry/mesh_facts.h"
 #include "geometry/surface_sampling.h"
@@ -63,9 +62,7 @@ std::shared_ptr<const Solid> inside_of(const ColliderBody& collider,
     if (!collider.solid) {
         return nullptr;
     }
-    const auto* cloud = std::get_if<CloudSurface>(&surface);
-    return cloud != nullptr ? std::make_shared<CloudSolid>(*cloud)
-                            : std::shared_ptr<const Solid>(placed_solid(collider.shape));
+    return std::holds_alternative<MeshShape>(collider.shape) ? solid_in(surface) : placed_solid(collider.shape);
 }
 
 } // namespace

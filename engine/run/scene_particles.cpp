@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <memory>
 #include <numbers>
 
 #include <fmt/format.h>
@@ -23,7 +24,7 @@ namespace meltpoint {
 namespace {
 
 /// Fluid `f` of the scene as blue noise, relaxed as its kernel and the domain's walls will see it.
-VolumeSamples sample_blue_noise(const Scene& scene, std::size_t f)
+VolumeSamples sample_blue_noise(const Scene& scene, std::size_t f, const Solid& solid)
 {
     VolumeRequest request{.lattice = Lattice::BlueNoise,
                           .amount = PointSpacing{static_cast<double>(scene.particles.spacing)},
@@ -33,37 +34,48 @@ VolumeSamples sample_blue_noise(const Scene& scene, std::size_t f)
     if (scene.domain.walls) {
         request.relaxation.mirrors = Aabb{scene.domain.min, scene.domain.max};
     }
-    return sample_volume(*placed_solid(scene.fluids[f].shape), request);
+    return sample_volume(solid, request);
 }
 
-VolumeSamples sample_fluid(const Scene& scene, std::size_t f)
+VolumeSamples sample_shape(const Scene& scene, std::size_t f, const Solid& solid)
 {
     const FluidBody& body = scene.fluids[f];
     const auto spacing = static_cast<double>(scene.particles.spacing);
     if (body.lattice == FluidLattice::BlueNoise) {
-        return sample_blue_noise(scene, f);
+        return sample_blue_noise(scene, f, solid);
     }
     return std::visit(Overloaded{
                           [&](const BlockShape& block) {
                               return sample_block({block.min, block.max}, spacing);
                           },
                           [&](const SphereShape& ball) { return sample_sphere(ball.center, ball.radius, spacing); },
-                          [&](const MeshShape& mesh) { return sample_volume(placed_mesh(mesh), spacing); },
+                          [&](const MeshShape&) { return sample_volume(solid, {.amount = PointSpacing{spacing}}); },
                       },
                       body.shape);
 }
 
-/// Volume of a mesh, measured only where its box could hold more than `limit` particles, else 0.
-double volume_worth_measuring(const MeshShape& shape, double spacing, std::uint64_t limit)
+/// Fluid `f` of the scene, which its errors name, and the file that it comes from.
+VolumeSamples sample_fluid(const Scene& scene, std::size_t f, const Solid& solid)
 {
-    const TriangleMesh mesh = placed_mesh(shape);
-    const glm::dvec3 size(bounds(mesh).size());
+    try {
+        return sample_shape(scene, f, solid);
+    } catch (const Error& error) {
+        const auto* mesh = std::get_if<MeshShape>(&scene.fluids[f].shape);
+        const std::string file = mesh != nullptr ? fmt::format(" ({})", mesh->mesh) : "";
+        throw Error(error.kind(), fmt::format("{}: fluid.{}{}: {}", scene.name, f, file, error.what()));
+    }
+}
+
+/// Volume of a solid, measured only where its box could hold more than `limit` particles, else 0.
+double volume_worth_measuring(const Solid& solid, double spacing, std::uint64_t limit)
+{
+    const glm::dvec3 size(solid.bounds().size());
     const bool could_be_too_many = size.x * size.y * size.z / std::pow(spacing, 3) > static_cast<double>(limit);
-    return could_be_too_many ? measure_volume(mesh) : 0.0;
+    return could_be_too_many ? solid.volume() : 0.0;
 }
 
 /// About how many particles fill a shape; 0 for meshes that cannot need more than `limit`.
-double expected_particles(const FluidBody& body, double spacing, std::uint64_t limit)
+double expected_particles(const FluidBody& body, const Solid& solid, double spacing, std::uint64_t limit)
 {
     const double volume = std::visit(
         Overloaded{
@@ -72,7 +84,7 @@ double expected_particles(const FluidBody& body, double spacing, std::uint64_t l
                 return size.x * size.y * size.z;
             },
             [](const SphereShape& ball) { return 4.0 / 3.0 * std::numbers::pi * std::pow(double{ball.radius}, 3); },
-            [&](const MeshShape& mesh) { return volume_worth_measuring(mesh, spacing, limit); },
+            [&](const MeshShape&) { return volume_worth_measuring(solid, spacing, limit); },
         },
         body.shape);
     return volume / std::pow(spacing, 3);
@@ -149,8 +161,10 @@ SceneParticles make_scene_particles(const Scene& scene, std::uint64_t limit)
 {
     const double spacing = static_cast<double>(scene.particles.spacing);
     double expected = 0.0;
+    std::vector<std::unique_ptr<Solid>> solids; // a scan takes long to be made into one
     for (const FluidBody& body : scene.fluids) {
-        expected += expected_particles(body, spacing, limit);
+        solids.push_back(placed_solid(body.shape));
+        expected += expected_particles(body, *solids.back(), spacing, limit);
     }
     if (expected > static_cast<double>(limit)) {
         throw_too_many(scene, expected, limit);
@@ -169,7 +183,7 @@ SceneParticles make_scene_particles(const Scene& scene, std::uint64_t limit)
     const SceneMaterials materials = scene_materials(scene);
     for (std::size_t f = 0; f < scene.fluids.size(); ++f) {
         const std::string name = fmt::format("fluid.{}", f);
-        VolumeSamples samples = sample_fluid(scene, f);
+        VolumeSamples samples = sample_fluid(scene, f, *solids[f]);
         check_inside(scene, samples, f);
         const Pitch pitch{.nearest = least_distance(scene.fluids[f], samples, spacing),
                           .spacing = static_cast<float>(samples.spacing)};

@@ -17,9 +17,9 @@ struct SceneParticles {
 /// The particles of a scene at time 0: shapes filled, masses from rest density and measured volume, velocities set;
 /// colliders as boundary particles, whose weights the simulation computes. Material of a particle: its fluid's or
 /// collider's entry in scene_materials(scene). Where bodies overlap, fluid gives way to colliders, and to fluids
-/// earlier in the file: such particles are left out, the others keep their masses. Throws Input for meshes that cannot
-/// be read or filled, fluid outside the domain or of which nothing is left, colliders outside the domain, and more than
-/// `limit` particles (what the device holds).
+/// earlier in the file: such particles are left out, the others keep their masses. A mesh may be a file of points: a
+/// scan, filled as CloudSolid says. Throws Input for files that cannot be read or filled, fluid outside the domain or
+/// of which nothing is left, colliders outside the domain, and more than `limit` particles (what the device holds).
 [[nodiscard]] SceneParticles make_scene_particles(const Scene& scene, std::uint64_t limit);
 
 /// Without the notes.

@@ -291,7 +291,7 @@ std::vector<Key<Body>> shape_keys(std::string_view description)
         required_of("sphere", k("center", SHAPE_FIELD(SphereShape, center), "m", PLACE, "center")),
         required_of("sphere", k("radius", SHAPE_FIELD(SphereShape, radius), "m", Range{1e-5, 1e4}, "radius")),
         required_of("mesh", k("mesh", SHAPE_FIELD(MeshShape, mesh), "", Range{1, 4096},
-            "a mesh file, its path relative to the scene file, or builtin:teapot, builtin:rabbit, builtin:sphere, builtin:cube, builtin:torus")),
+            "a file of a mesh, or of points (a scan), its path relative to the scene file, or builtin:teapot, builtin:rabbit, builtin:sphere, builtin:cube, builtin:torus")),
         required_of("mesh", k("position", SHAPE_FIELD(MeshShape, position), "m", PLACE, "where the center of the mesh's bounding box goes")),
         optional_of("mesh", k("size", SHAPE_FIELD(MeshShape, size), "m", Range{1e-4, 1e4}, "largest extent after scaling; auto: the mesh's own units are meters")),
         optional_of("mesh", k("rotation", SHAPE_FIELD(MeshShape, rotation), "degrees", Range{-360, 360}, "about x, then y, then z, about its center")),

@@ -19,6 +19,7 @@
 #include <nlohmann/json.hpp>
 
 #include "support/cli.h"
+#include "support/clouds.h"
 #include "support/scratch_folder.h"
 
 namespace meltpoint {
@@ -131,6 +132,24 @@ TEST_F(Cli, WrongUsageExitsWithTwo)
     EXPECT_TRUE(files(".").empty());
 }
 
+TEST_F(Cli, RendersAScanAsFluid)
+{
+    test::write_bytes(path("scan.xyz"), test::xyz_of(test::fibonacci_sphere(2000)));
+    const std::string note = "scan.xyz: 2000 of 2000 normals were missing: they are estimated from nearest neighbors "
+                             "and oriented outward";
+    for (const Arguments& scene : {Arguments{"scan.xyz", "--set", "particles.spacing=0.2"},
+                                   Arguments{"teapot_drop", "--mesh", "scan.xyz", "--set", "particles.spacing=0.05"}}) {
+        Arguments arguments{"render", "--frames", "2", "--size", "96x54", "--force", "--out", "out"};
+        arguments.insert(arguments.end(), scene.begin(), scene.end());
+        const Result result = run(arguments);
+        EXPECT_EQ(result.exit_code, 0) << result.err;
+        ASSERT_EQ(test::messages(result.err).size(), 2u) << result.err; // the other one tells of particles and device
+        EXPECT_TRUE(test::messages(result.err)[0].ends_with(note)) << result.err;
+        EXPECT_NE(result.out.find("2 frames of "), std::string::npos) << result.out;
+        EXPECT_EQ(files("out"), (Arguments{"frame_0000.png", "frame_0001.png"}));
+    }
+}
+
 TEST_F(Cli, BadInputIsOneSentenceAndExitsWithTwo)
 {
     test::write_bytes(path("empty.obj"), "");
@@ -138,6 +157,7 @@ TEST_F(Cli, BadInputIsOneSentenceAndExitsWithTwo)
     test::write_bytes(path("nan.toml"), "[[fluid]]\nshape = \"block\"\nmin = [0, 0, 0]\nmax = [0.5, nan, 0.5]\n");
     test::write_bytes(path("binary.toml"), std::string("\0\1\2\xff", 4));
     test::write_bytes(path("flat.obj"), "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
+    test::write_bytes(path("flat.xyz"), "0 0 0\n1 0 0\n1 0 1\n0 0 1\n0.5 0 0.5\n");
     fs::create_directory(path("folder"));
     const std::vector<std::pair<Arguments, std::string>> cases{
         {{"no_such_scene"}, "no scene or mesh \"no_such_scene\""},
@@ -147,6 +167,9 @@ TEST_F(Cli, BadInputIsOneSentenceAndExitsWithTwo)
         {{"nan.toml"}, "nan.toml:4: key \"fluid.0.max\""},
         {{"binary.toml"}, "binary.toml"},
         {{"flat.obj"}, "encloses no volume"},
+        {{"flat.xyz"}, "flat.xyz: the scan encloses no volume"},
+        {{"teapot_drop", "--mesh", "flat.xyz"},
+         "teapot_drop: fluid.0 (flat.xyz): the shape to fill encloses no volume"},
         {{"builtin:bunny"}, "bunny"},
         {{"drop", "--size", "96"}, "--size 96: expected WIDTHxHEIGHT"},
         {{"drop", "--size", "96x"}, "expected WIDTHxHEIGHT"},

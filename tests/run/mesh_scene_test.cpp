@@ -8,6 +8,7 @@
 #include "core/error.h"
 #include "run/scene_particles.h"
 #include "scene/scene_file.h"
+#include "support/clouds.h"
 #include "support/scratch_folder.h"
 
 namespace meltpoint {
@@ -118,6 +119,24 @@ TEST(MeshScene, HoldsAboutSixteenThousandParticlesInABoxThatFits)
         EXPECT_GT(lowest, 0.3f) << "it falls";
         EXPECT_LT(highest, scene.domain.max.y) << "and may splash";
     }
+}
+
+TEST(MeshScene, AScanIsDroppedAsItsMeshIs)
+{
+    const test::ScratchFolder folder;
+    test::write_bytes(folder / "ring.xyz", test::xyz_of(test::points_on("torus", 6000, SurfaceMethod::BlueNoise)));
+    test::write_bytes(folder / "flat.xyz", "0 0 0\n1 0 0\n1 0 1\n0 0 1\n0.5 0 0.5\n");
+    const Scene scan = find_scene((folder / "ring.xyz").string(), {});
+    const Scene mesh = find_scene("builtin:torus", {});
+    EXPECT_EQ(scan.name, "ring");
+    EXPECT_EQ(scan.description, "A scan filled with fluid, dropped into a box.");
+    EXPECT_NEAR(scan.particles.spacing / mesh.particles.spacing, 1.0f, 0.01f);
+    EXPECT_NEAR(scan.domain.max.y / mesh.domain.max.y, 1.0f, 0.02f);
+    const auto count = static_cast<double>(make_particles(scan, 1'000'000).size()); // throws where fluid lies outside
+    EXPECT_NEAR(count, 16'000.0, 1200.0);
+    EXPECT_EQ(refusal((folder / "flat.xyz").string()),
+              (folder / "flat.xyz").string() +
+                  ": the scan encloses no volume that could be filled: it is flat, or its normals face inward");
 }
 
 TEST(MeshScene, IsTheSameAtEverySizeButForItsScale)

@@ -12,6 +12,7 @@
 #include "reference/density.h"
 #include "run/fluid_settings.h"
 #include "run/placed_mesh.h"
+#include "support/clouds.h"
 #include "support/scratch_folder.h"
 
 namespace meltpoint {
@@ -161,6 +162,106 @@ TEST(SceneParticles, AMeshIsScaledTurnedAndPlacedByItsCenter)
     }
     EXPECT_LT(glm::length(center - glm::dvec3(0.1, 0.7, -0.2)), 0.05);
     EXPECT_GT(widest, 0.45f); // an unturned cube would end at 0.4
+}
+
+/// A fluid from a file of points.
+FluidBody scan(const std::filesystem::path& path, const PointCloud& cloud)
+{
+    test::write_bytes(path, test::xyz_of(cloud));
+    FluidBody body;
+    body.shape = MeshShape{.mesh = path.string(), .size = 1.6f, .position = {0.1f, 0.9f, -0.1f}};
+    return body;
+}
+
+TEST(SceneParticles, AScanIsFilledToItsVolume)
+{
+    const test::ScratchFolder folder;
+    PointCloud cloud = test::fibonacci_sphere(3000);
+    for (glm::vec3& x : cloud.positions) { // not where it will be, and not as large
+        x = 30.0f * x + glm::vec3(500.0f, -200.0f, 3.0f);
+    }
+    FluidBody body = scan(folder / "ball.xyz", cloud);
+    const double volume = 4.0 / 3.0 * std::numbers::pi * 0.8 * 0.8 * 0.8;
+    for (const FluidLattice lattice : {FluidLattice::Cubic, FluidLattice::BlueNoise}) {
+        body.lattice = lattice;
+        Scene scene = scene_of(body);
+        scene.particles.spacing = 0.08f;
+        const ParticleSet particles = make_particles(scene, no_limit);
+        const double expected = volume / std::pow(0.08, 3);
+        // The lattice's spacing may be 2.5 % finer or coarser than asked, the mass may not.
+        EXPECT_NEAR(static_cast<double>(particles.size()), expected,
+                    (lattice == FluidLattice::Cubic ? 0.095 : 0.02) * expected);
+        EXPECT_NEAR(total_mass(particles), 1000.0 * volume, 0.01 * 1000.0 * volume);
+        for (const glm::vec3& x : particles.position) {
+            ASSERT_LT(glm::distance(x, glm::vec3(0.1f, 0.9f, -0.1f)), 0.8f + 0.01f);
+        }
+    }
+}
+
+TEST(SceneParticles, AScanIsScaledTurnedAndPlacedAsTheMeshIs)
+{
+    const test::ScratchFolder folder;
+    const auto filled = [](const std::string& mesh) {
+        FluidBody body;
+        body.lattice = FluidLattice::BlueNoise; // whose count is the volume's
+        body.shape = MeshShape{.mesh = mesh, .size = 0.8f, .position = {0.1f, 0.7f, -0.2f}, .rotation = {20, 45, 10}};
+        return make_particles(scene_of(body), no_limit);
+    };
+    test::write_bytes(folder / "cube.xyz", test::xyz_of(test::points_on("cube", 6000, SurfaceMethod::BlueNoise)));
+    const ParticleSet scanned = filled((folder / "cube.xyz").string());
+    const auto count = static_cast<double>(filled("builtin:cube").size());
+    EXPECT_NEAR(static_cast<double>(scanned.size()), count, 0.02 * count);
+    const std::unique_ptr<Solid> cube = placed_solid(MeshShape{
+        .mesh = "builtin:cube", .size = 0.8f + 0.02f, .position = {0.1f, 0.7f, -0.2f}, .rotation = {20, 45, 10}});
+    glm::dvec3 center(0.0);
+    for (const glm::vec3& x : scanned.position) {
+        ASSERT_TRUE(cube->contains(glm::dvec3(x)));
+        center += glm::dvec3(x) / static_cast<double>(scanned.size());
+    }
+    EXPECT_LT(glm::length(center - glm::dvec3(0.1, 0.7, -0.2)), 0.02);
+}
+
+TEST(SceneParticles, WhatAScanWasGivenIsTold)
+{
+    const test::ScratchFolder folder;
+    PointCloud cloud = test::fibonacci_sphere(1000);
+    const Scene scene = scene_of(scan(folder / "ball.xyz", cloud));
+    const auto told = [&] {
+        testing::internal::CaptureStderr();
+        static_cast<void>(make_particles(scene, no_limit));
+        return testing::internal::GetCapturedStderr();
+    };
+    EXPECT_EQ(told(), (folder / "ball.xyz").string() + ": 1000 of 1000 normals were missing: they are estimated from "
+                                                       "nearest neighbors and oriented outward\n");
+    cloud.normals = cloud.positions;
+    static_cast<void>(scan(folder / "ball.xyz", cloud));
+    EXPECT_EQ(told(), "");
+}
+
+TEST(SceneParticles, ScansThatCannotBeFilledAreRefused)
+{
+    const test::ScratchFolder folder;
+    PointCloud flat;
+    for (int i = 0; i < 400; ++i) {
+        flat.positions.emplace_back(0.1f * static_cast<float>(i % 20), 0.0f, 0.1f * static_cast<float>(i / 20));
+    }
+    PointCloud two = flat;
+    two.positions.resize(2);
+    PointCloud line = flat;
+    line.positions.resize(20);
+    PointCloud broken = test::fibonacci_sphere(100);
+    broken.positions[40].y = NAN;
+    const std::string path = (folder / "scan.xyz").string();
+    for (const auto& [cloud, reason] :
+         {std::pair{flat, "test: fluid.0 (" + path + "): the shape to fill encloses no volume"},
+          {test::inward_sphere(1000), "test: fluid.0 (" + path + "): the shape to fill encloses no volume"},
+          {two, path + ": a surface takes at least three points"},
+          {line, path + ": the points of the cloud lie on a line"},
+          {broken, path + ": point 40 is not finite"},
+          {PointCloud{}, path + ": the file is empty"}}) {
+        const std::string message = refusal(scene_of(scan(path, cloud)));
+        EXPECT_TRUE(message.starts_with(reason)) << message;
+    }
 }
 
 TEST(SceneParticles, VelocityIsUniformPlusLinearPlusSpin)

@@ -6,6 +6,10 @@
 #include <cstddef>
 #include <cstdint>
 #include <numbers>
+#include <string>
+#include <string_view>
+
+#include <fmt/format.h>
 
 #include "core/random.h"
 #include "geometry/builtin_meshes.h"
@@ -43,6 +47,32 @@ inline glm::vec3 torus_normal(const glm::vec3& point)
 {
     const glm::vec3 ring = glm::normalize(glm::vec3(point.x, 0.0f, point.z));
     return glm::normalize(point - ring);
+}
+
+/// As the text of a file of points: x y z a line, and the normals where there are any.
+inline std::string xyz_of(const PointCloud& cloud)
+{
+    std::string text;
+    for (std::size_t i = 0; i < cloud.size(); ++i) {
+        const glm::vec3& x = cloud.positions[i];
+        text += fmt::format("{} {} {}", x.x, x.y, x.z);
+        if (!cloud.normals.empty()) {
+            const glm::vec3& n = cloud.normals[i];
+            text += fmt::format(" {} {} {}", n.x, n.y, n.z);
+        }
+        text += '\n';
+    }
+    return text;
+}
+
+/// Points all over the unit sphere with normals that face inward.
+inline PointCloud inward_sphere(std::size_t count)
+{
+    PointCloud cloud = fibonacci_sphere(count);
+    for (const glm::vec3& x : cloud.positions) {
+        cloud.normals.push_back(-x);
+    }
+    return cloud;
 }
 
 /// Adds noise of the given length to every point, in all directions.
