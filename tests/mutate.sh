@@ -302,6 +302,11 @@ mutation "scenes: normals of a scan do not turn along with it" \
     'glm::mat3(matrix) * normal' \
     'normal' \
     unit_tests 'SceneColliders.AScanIsSampledAnewAndSolid'
+mutation "scenes: a scan of a pipe counts as closed" \
+    engine/geometry/cloud_solid.cpp \
+    'tolerance * std::abs(volume())' \
+    '2.0 * std::abs(volume())' \
+    unit_tests 'SceneColliders.AClosedScanThatIsInsideOutIsWarnedOf'
 mutation "scenes: scans keep their size" \
     engine/run/placed_mesh.cpp \
     'x = glm::vec3(matrix * glm::vec4(x, 1.0f));' \

@@ -40,30 +40,55 @@ std::vector<WindingNumber::Triangle> triangles_of(const CloudSurface& surface)
     return triangles;
 }
 
-/// By the divergence theorem about their centroid: what lies flat has none, what faces inward less.
-double signed_volume(const std::vector<WindingNumber::Triangle>& triangles)
-{
+/// What the divergence theorem says of a surface. With n of unit length, and x from the surface's centroid on:
+struct Moments {
     double area = 0.0;
+    glm::dvec3 normal{0.0};      ///< integral of n: zero if it is closed
+    glm::dmat3 normal_by_x{0.0}; ///< integral of n x^T: volume times identity if it is closed
+
+    /// What lies flat has none, what faces inward less.
+    [[nodiscard]] double volume() const { return (normal_by_x[0][0] + normal_by_x[1][1] + normal_by_x[2][2]) / 3.0; }
+
+    [[nodiscard]] bool is_closed() const
+    {
+        constexpr double tolerance = 0.1; // scans of closed shapes keep within a few percent
+        bool closed = glm::length(normal) <= tolerance * area;
+        for (int column = 0; column < 3; ++column) {
+            for (int row = 0; row < 3; ++row) {
+                const double expected = row == column ? volume() : 0.0;
+                closed = closed && std::abs(normal_by_x[column][row] - expected) <= tolerance * std::abs(volume());
+            }
+        }
+        return closed;
+    }
+};
+
+Moments moments_of(const std::vector<WindingNumber::Triangle>& triangles)
+{
+    Moments moments;
     glm::dvec3 center(0.0);
-    double volume = 0.0;
-    glm::dvec3 normals(0.0);
     for (const WindingNumber::Triangle& t : triangles) {
         const glm::dvec3 normal = 0.5 * glm::cross(t[1] - t[0], t[2] - t[0]); // as long as the area
-        const glm::dvec3 middle = (t[0] + t[1] + t[2]) / 3.0;
-        area += glm::length(normal);
-        center += glm::length(normal) * middle;
-        volume += glm::dot(normal, middle - triangles[0][0]) / 3.0; // about a corner, for the sake of precision
-        normals += normal;
+        const glm::dvec3 x = (t[0] + t[1] + t[2]) / 3.0 - triangles[0][0]; // from a corner, for the sake of precision
+        moments.area += glm::length(normal);
+        center += glm::length(normal) * x;
+        moments.normal += normal;
+        moments.normal_by_x += glm::outerProduct(normal, x);
     }
-    return area > 0.0 ? volume - glm::dot(normals, center / area - triangles[0][0]) / 3.0 : 0.0;
+    if (moments.area > 0.0) {
+        moments.normal_by_x -= glm::outerProduct(moments.normal, center / moments.area);
+    }
+    return moments;
 }
 
 } // namespace
 
-CloudSolid::CloudSolid(const CloudSurface& surface) : CloudSolid(triangles_of(surface)) {}
-
-CloudSolid::CloudSolid(std::vector<WindingNumber::Triangle> triangles) : signed_volume_(signed_volume(triangles))
+CloudSolid::CloudSolid(const CloudSurface& surface)
 {
+    std::vector<WindingNumber::Triangle> triangles = triangles_of(surface);
+    const Moments moments = moments_of(triangles);
+    signed_volume_ = moments.volume();
+    inside_out_ = signed_volume_ < 0.0 && moments.is_closed();
     for (const WindingNumber::Triangle& triangle : triangles) {
         for (const glm::dvec3& corner : triangle) {
             bounds_.extend(glm::vec3(corner));

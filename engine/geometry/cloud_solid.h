@@ -23,13 +23,15 @@ public:
     [[nodiscard]] bool contains(const glm::dvec3& point) const override;
     [[nodiscard]] CellMask mask(const CellGrid& grid) const override;
 
+    /// Whether it is a closed surface, to some 10 %, with its normals turned inward: its winding number inside is -1.
+    [[nodiscard]] bool is_inside_out() const { return inside_out_; }
+
     [[nodiscard]] const WindingNumber& winding() const { return winding_; }
 
 private:
-    explicit CloudSolid(std::vector<WindingNumber::Triangle> triangles);
-
     Aabb bounds_;
-    double signed_volume_;
+    double signed_volume_ = 0.0;
+    bool inside_out_ = false;
     WindingNumber winding_;
     mutable tbb::collaborative_once_flag measured_;
     mutable double volume_ = 0.0;

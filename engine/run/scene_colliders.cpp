@@ -1,5 +1,6 @@
 #include "run/scene_colliders.h"
 
+#include <string_view>
 #include <utility>
 #include <variant>
 
@@ -8,6 +9,7 @@
 #include "core/aabb.h"
 #include "core/error.h"
 #include "core/log.h"
+#include "geometry/cloud_solid.h"
 #include "geometry/cloud_surface.h"
 #include "geometry/mesh_facts.h"
 #include "geometry/surface_sampling.h"
@@ -44,23 +46,35 @@ std::vector<glm::vec3> sample_collider(const Scene& scene, std::size_t c, const 
     return sample_surface(surface, request).cloud.positions;
 }
 
-/// The winding number in a closed mesh is -1 where all triangles are turned: it keeps no fluid out, whatever was asked.
-void warn_if_inside_out(const Scene& scene, std::size_t c, const std::variant<TriangleMesh, CloudSurface>& surface)
+bool is_inside_out(const TriangleMesh& mesh)
 {
-    const auto* mesh = std::get_if<TriangleMesh>(&surface);
-    if (scene.colliders[c].solid && mesh != nullptr && signed_volume(*mesh) < 0.0 &&
-        mesh_facts(weld(*mesh)).boundary_edges == 0) {
-        log_warning(
-            fmt::format("{}: the triangles of collider.{} face inward: fluid may start inside of it", scene.name, c));
-    }
+    return signed_volume(mesh) < 0.0 && mesh_facts(weld(mesh)).boundary_edges == 0;
+}
+
+/// The winding number in a closed surface is -1 where all of it is turned: it keeps no fluid out, whatever was asked.
+void warn_of_inward(const Scene& scene, std::size_t c, std::string_view parts)
+{
+    log_warning(
+        fmt::format("{}: the {} of collider.{} face inward: fluid may start inside of it", scene.name, parts, c));
 }
 
 /// Null for a shell.
-std::shared_ptr<const Solid> inside_of(const ColliderBody& collider,
+std::shared_ptr<const Solid> inside_of(const Scene& scene, std::size_t c,
                                        const std::variant<TriangleMesh, CloudSurface>& surface)
 {
+    const ColliderBody& collider = scene.colliders[c];
     if (!collider.solid) {
         return nullptr;
+    }
+    if (const auto* cloud = std::get_if<CloudSurface>(&surface)) {
+        auto solid = std::make_shared<CloudSolid>(*cloud);
+        if (solid->is_inside_out()) {
+            warn_of_inward(scene, c, "normals");
+        }
+        return solid;
+    }
+    if (is_inside_out(std::get<TriangleMesh>(surface))) {
+        warn_of_inward(scene, c, "triangles");
     }
     return std::holds_alternative<MeshShape>(collider.shape) ? solid_in(surface) : placed_solid(collider.shape);
 }
@@ -75,7 +89,6 @@ std::vector<ColliderSamples> sample_colliders(const Scene& scene, std::uint64_t 
     for (std::size_t c = 0; c < scene.colliders.size(); ++c) {
         const ColliderBody& collider = scene.colliders[c];
         const std::variant<TriangleMesh, CloudSurface> surface = placed_surface(collider.shape);
-        warn_if_inside_out(scene, c, surface);
         std::vector<glm::vec3> points =
             std::visit([&](const auto& each) { return sample_collider(scene, c, each, limit); }, surface);
         Aabb box;
@@ -90,7 +103,7 @@ std::vector<ColliderSamples> sample_colliders(const Scene& scene, std::uint64_t 
                               scene.name, c, box.min.x, box.min.y, box.min.z, box.max.x, box.max.y, box.max.z);
         }
         total += points.size();
-        samples.push_back({std::move(points), inside_of(collider, surface)});
+        samples.push_back({std::move(points), inside_of(scene, c, surface)});
     }
     if (total > limit) {
         throw input_error("{}: the colliders need {} boundary particles, more than the device can hold, {}: choose a "

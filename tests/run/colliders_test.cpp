@@ -157,7 +157,6 @@ TEST(SceneColliders, AMeshIsSolidWhereItsWindingNumberSaysSo)
     }
 }
 
-// A scanned ball does what a ball does, wherever its own points lie.
 TEST(SceneColliders, AClosedMeshThatIsInsideOutIsWarnedOf)
 {
     const test::ScratchFolder folder;
@@ -181,6 +180,49 @@ TEST(SceneColliders, AClosedMeshThatIsInsideOutIsWarnedOf)
     EXPECT_EQ(warning_of(open, true), "");
 }
 
+TEST(SceneColliders, AClosedScanThatIsInsideOutIsWarnedOf)
+{
+    const test::ScratchFolder folder;
+    const auto warning_of = [&](const PointCloud& cloud, bool solid) {
+        const std::string path = (folder / "scan.xyz").string();
+        test::write_bytes(path, test::xyz_of(cloud));
+        Scene scene = block_scene();
+        const MeshShape shape{.mesh = path, .size = 0.8f, .position = {0.0f, 1.4f, 0.0f}, .rotation = {30, 0, 50}};
+        scene.colliders.push_back({.shape = shape, .solid = solid});
+        testing::internal::CaptureStderr();
+        static_cast<void>(make_particles(scene, no_limit));
+        return testing::internal::GetCapturedStderr();
+    };
+    PointCloud outward = test::inward_sphere(1000);
+    for (glm::vec3& normal : outward.normals) {
+        normal = -normal;
+    }
+    EXPECT_EQ(warning_of(test::inward_sphere(1000), true),
+              "warning: test: the normals of collider.0 face inward: fluid may start inside of it\n");
+    EXPECT_EQ(warning_of(test::inward_sphere(1000), false), "");
+    EXPECT_EQ(warning_of(outward, true), "");
+
+    // What is open may face inward: a bowl, a pipe, a floor seen from below.
+    PointCloud bowl;
+    PointCloud pipe;
+    PointCloud floor;
+    for (const glm::vec3& x : test::fibonacci_sphere(3000).positions) {
+        const glm::vec3 around = glm::normalize(glm::vec3(x.x, 0.0f, x.z));
+        pipe.positions.push_back(around + glm::vec3(0.0f, x.y, 0.0f));
+        pipe.normals.push_back(-around);
+        floor.positions.emplace_back(x.x, 0.01f * x.y, x.z);
+        floor.normals.emplace_back(0.0f, -1.0f, 0.0f);
+        if (x.y < 0.0f) {
+            bowl.positions.push_back(x);
+            bowl.normals.push_back(-x);
+        }
+    }
+    EXPECT_EQ(warning_of(bowl, true), "");
+    EXPECT_EQ(warning_of(pipe, true), "");
+    EXPECT_EQ(warning_of(floor, true), "");
+}
+
+// A scanned ball does what a ball does, wherever its own points lie.
 TEST(SceneColliders, AScanIsSampledAnewAndSolid)
 {
     const test::ScratchFolder folder;
