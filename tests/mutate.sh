@@ -500,6 +500,11 @@ mutation "clouds: points in one place are all kept" \
     'std::vector<std::uint8_t> kept(cloud.size(), 0);' \
     'std::vector<std::uint8_t> kept(cloud.size(), 1);' \
     unit_tests 'CloudSurface.PointsInOnePlaceAreOne'
+mutation "sample: an unwritable place is told after the work" \
+    apps/meltpoint/sample.cpp \
+    'refuse_unwritable(options.out);' \
+    '' \
+    program_tests 'SampleCli.AnUnwritablePlace*'
 mutation "clouds: a tilted plane is a slab" \
     engine/geometry/cloud_solid.cpp \
     'least_share = 0.25' \

@@ -65,6 +65,7 @@ void check_output(const SampleOptions& options)
     if (!options.force) {
         refuse_existing(options.out);
     }
+    refuse_unwritable(options.out);
 }
 
 nlohmann::ordered_json json_of(const CloudFacts& facts)

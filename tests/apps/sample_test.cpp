@@ -8,6 +8,7 @@
 #include <vector>
 
 #include <sys/stat.h>
+#include <unistd.h>
 
 #include <fmt/ranges.h>
 #include <gtest/gtest.h>
@@ -344,6 +345,34 @@ TEST_F(SampleCli, AFullDiskIsOneSentenceAndLeavesNoHalfFile)
     expect_one_sentence(shell("ulimit -f 8; exec \"$P\" sample builtin:cube -o x.ply --count 100000"), 1,
                         "cannot write x.ply: ");
     EXPECT_TRUE(files(".").empty());
+}
+
+TEST_F(SampleCli, AnUnwritablePlaceIsToldBeforeTheWork)
+{
+    write("file", "mine");
+    fs::create_directory(path("locked"));
+    fs::permissions(path("locked"), fs::perms::owner_read | fs::perms::owner_exec);
+    const std::string long_name = std::string(300, 'x') + ".ply";
+    std::vector<std::pair<std::string, std::string>> cases{
+        {"file/x.ply", "Not a directory"},
+        {"file/below/x.ply", "Not a directory"},
+        {"/proc/x.ply", "No such file or directory"},
+        {"new/" + long_name, "File name too long"},
+        {long_name, "File name too long"},
+    };
+    if (geteuid() != 0) { // who may do anything
+        cases.emplace_back("locked/x.ply", "Permission denied");
+        cases.emplace_back("locked/below/x.ply", "Permission denied");
+    }
+    for (const auto& [out, reason] : cases) {
+        expect_one_sentence(sample({"no_such.obj", "-o", out}), 1, "cannot write " + out + ": " + reason);
+    }
+    expect_one_sentence(sample({"no_such.obj", "-o", "new/below/x.ply"}), 2, "no_such.obj");
+    expect_one_sentence(sample({"no_such.obj", "-o", path("new/below/x.ply").string()}), 2, "no_such.obj");
+    EXPECT_EQ(files("."), (Arguments{"file", "locked"})) << "nothing is made";
+    EXPECT_TRUE(files("locked").empty());
+    EXPECT_EQ(sample({"builtin:cube", "-o", "new/below/x.ply", "--count", "10"}).exit_code, 0);
+    EXPECT_EQ(files("new/below"), (Arguments{"x.ply"}));
 }
 
 TEST_F(SampleCli, CtrlCLeavesNothingBehind)
