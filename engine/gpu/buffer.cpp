@@ -44,8 +44,9 @@ Buffer::Buffer(const Context& context, VkDeviceSize bytes, MemoryUse use, const 
     try {
         VkBufferCreateInfo info{VK_STRUCTURE_TYPE_BUFFER_CREATE_INFO};
         info.size = size_;
-        info.usage = VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_SRC_BIT |
-                     VK_BUFFER_USAGE_TRANSFER_DST_BIT | VK_BUFFER_USAGE_INDIRECT_BUFFER_BIT |
+        info.usage = VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_UNIFORM_BUFFER_BIT |
+                     VK_BUFFER_USAGE_TRANSFER_SRC_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT |
+                     VK_BUFFER_USAGE_INDIRECT_BUFFER_BIT |
                      VK_BUFFER_USAGE_VERTEX_BUFFER_BIT; // which is for hosts: the engine's own shaders pull vertices
         info.usage |= texels != VK_FORMAT_UNDEFINED ? VK_BUFFER_USAGE_UNIFORM_TEXEL_BUFFER_BIT : 0;
         check(context.vk().vkCreateBuffer(context.device(), &info, nullptr, &buffer_), "creating a buffer");

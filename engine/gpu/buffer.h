@@ -24,7 +24,8 @@ struct AccessState {
     VkAccessFlags2 visible_access = 0;
 };
 
-/// A storage buffer with memory of its own. Move-only.
+/// A buffer with memory of its own, which shaders bind as a storage buffer or, up to 16 KiB, as a uniform buffer.
+/// Move-only.
 class Buffer {
 public:
     Buffer() = default;

@@ -40,6 +40,18 @@ bool allows(ShaderAccess shader, Access declared)
     return false;
 }
 
+VkAccessFlags2 read_access(VkDescriptorType type)
+{
+    switch (type) {
+    case VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER:
+        return VK_ACCESS_2_UNIFORM_READ_BIT;
+    case VK_DESCRIPTOR_TYPE_UNIFORM_TEXEL_BUFFER:
+        return VK_ACCESS_2_SHADER_SAMPLED_READ_BIT;
+    default:
+        return VK_ACCESS_2_SHADER_STORAGE_READ_BIT;
+    }
+}
+
 } // namespace
 
 Commands::Commands(const Context& context, std::uint32_t max_scopes)
@@ -211,8 +223,7 @@ void Commands::bind(const Kernel& kernel, std::span<const std::byte> push, std::
                                                kernel.name(), binding.buffer->name()));
         }
         VkAccessFlags2 access = 0;
-        access |= as_texels ? VK_ACCESS_2_SHADER_SAMPLED_READ_BIT : 0;
-        access |= !as_texels && binding.access != Access::Write ? VK_ACCESS_2_SHADER_STORAGE_READ_BIT : 0;
+        access |= binding.access != Access::Write ? read_access(type) : 0;
         access |= binding.access != Access::Read ? VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT : 0;
         use(*binding.buffer, VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT, access, binding.access != Access::Read);
 

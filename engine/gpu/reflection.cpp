@@ -43,6 +43,9 @@ ShaderInterface reflect(std::span<const std::uint32_t> spirv)
     for (const auto& resource : resources.storage_buffers) {
         add(resource, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, buffer_access(compiler, resource.id));
     }
+    for (const auto& resource : resources.uniform_buffers) {
+        add(resource, VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER, ShaderAccess::Read);
+    }
     for (const auto& resource : resources.storage_images) {
         add(resource, VK_DESCRIPTOR_TYPE_STORAGE_IMAGE, image_access(compiler, resource.id));
     }

@@ -4,7 +4,7 @@
 #include "include/grid.glsl"
 #include "include/invocation.glsl"
 
-layout(set = 0, binding = 0, scalar) readonly buffer Params { SphParams params; };
+layout(set = 0, binding = 0, scalar) uniform Params { SphParams params; };
 layout(set = 0, binding = 1, scalar) readonly buffer Position { vec4 position[]; };
 layout(set = 0, binding = 2, scalar) writeonly buffer Key { uint key[]; };
 

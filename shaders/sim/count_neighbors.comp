@@ -8,7 +8,7 @@
 #include "include/neighbor_walk.glsl"
 #include "shared/neighbor_count.h"
 
-layout(set = 0, binding = 0, scalar) readonly buffer Params { SphParams params; };
+layout(set = 0, binding = 0, scalar) uniform Params { SphParams params; };
 layout(set = 0, binding = 2, scalar) readonly buffer Position { vec4 position[]; };
 layout(set = 0, binding = 3, scalar) readonly buffer Id { uint id[]; };
 layout(set = 0, binding = 4, scalar) writeonly buffer Counts { NeighborCount counts[]; };

@@ -11,7 +11,7 @@
 #include "include/sph_kernel.glsl"
 #include "shared/particle_state.h"
 
-layout(set = 0, binding = 0, scalar) readonly buffer Params { SphParams params; };
+layout(set = 0, binding = 0, scalar) uniform Params { SphParams params; };
 layout(set = 0, binding = 2, scalar) readonly buffer Position { vec4 position[]; };
 layout(set = 0, binding = 3) uniform textureBuffer position_texels;
 layout(set = 0, binding = 4, scalar) readonly buffer Attributes { uint attributes[]; };

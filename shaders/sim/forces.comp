@@ -14,7 +14,7 @@
 
 layout(constant_id = 2) const bool TENSION = false;
 
-layout(set = 0, binding = 0, scalar) readonly buffer Params { SphParams params; };
+layout(set = 0, binding = 0, scalar) uniform Params { SphParams params; };
 layout(set = 0, binding = 2, scalar) readonly buffer Position { vec4 position[]; };
 layout(set = 0, binding = 3) uniform textureBuffer position_texels;
 layout(set = 0, binding = 4, scalar) readonly buffer Velocity { vec4 velocity[]; };

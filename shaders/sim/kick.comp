@@ -4,7 +4,7 @@
 #include "include/invocation.glsl"
 #include "shared/sph_params.h"
 
-layout(set = 0, binding = 0, scalar) readonly buffer Params { SphParams params; };
+layout(set = 0, binding = 0, scalar) uniform Params { SphParams params; };
 layout(set = 0, binding = 1, scalar) readonly buffer Acceleration { vec4 acceleration[]; };
 layout(set = 0, binding = 2, scalar) buffer Velocity { vec4 velocity[]; };
 

@@ -7,7 +7,7 @@
 #include "shared/sph_params.h"
 
 layout(push_constant, scalar) uniform Push { uint step_index; };
-layout(set = 0, binding = 0, scalar) readonly buffer Params { SphParams params; };
+layout(set = 0, binding = 0, scalar) uniform Params { SphParams params; };
 layout(set = 0, binding = 1, scalar) readonly buffer Id { uint id[]; };
 layout(set = 0, binding = 2, scalar) readonly buffer Acceleration { vec4 acceleration[]; };
 layout(set = 0, binding = 3, scalar) buffer Attributes { uint attributes[]; };

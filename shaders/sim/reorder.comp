@@ -5,7 +5,7 @@
 #include "include/invocation.glsl"
 #include "shared/sph_params.h"
 
-layout(set = 0, binding = 0, scalar) readonly buffer Params { SphParams params; };
+layout(set = 0, binding = 0, scalar) uniform Params { SphParams params; };
 layout(set = 0, binding = 1, scalar) readonly buffer Order { uint order[]; };
 layout(set = 0, binding = 2, scalar) readonly buffer Id { uint id[]; };
 layout(set = 0, binding = 3, scalar) readonly buffer Attributes { uint attributes[]; };
