@@ -505,6 +505,11 @@ mutation "sample: an unwritable place is told after the work" \
     'refuse_unwritable(options.out);' \
     '' \
     program_tests 'SampleCli.AnUnwritablePlace*'
+mutation "clouds: files that are cut off are read" \
+    engine/io/point_cloud_import.cpp \
+    'if (promised && *promised !=' \
+    'if (promised && *promised <' \
+    unit_tests 'PointCloudImport.*'
 mutation "clouds: a tilted plane is a slab" \
     engine/geometry/cloud_solid.cpp \
     'least_share = 0.25' \

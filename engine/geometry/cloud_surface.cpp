@@ -120,6 +120,9 @@ std::string note_of(const CloudFacts& facts)
     if (facts.duplicates > 0) {
         notes.push_back(fmt::format("{} points in the place of another are left out", facts.duplicates));
     }
+    if (facts.intensity_ignored) {
+        notes.emplace_back("the fourth number of each line, an intensity, is ignored");
+    }
     return fmt::format("{}", fmt::join(notes, "; "));
 }
 
@@ -128,6 +131,7 @@ CloudSurface make_cloud_surface(PointCloud cloud, std::string_view name)
     check_size(cloud, name);
     CloudSurface surface;
     surface.facts.duplicates = cloud.size();
+    surface.facts.intensity_ignored = cloud.intensity_ignored;
     cloud.normals.resize(cloud.size(), glm::vec3(0.0f));
     cloud = distinct(std::move(cloud));
     surface.facts.points = cloud.size();

@@ -11,11 +11,12 @@ namespace meltpoint {
 
 /// What was found in a cloud, and what was done to it.
 struct CloudFacts {
-    std::size_t points = 0;     ///< in different places
-    std::size_t duplicates = 0; ///< dropped: points where another one is
-    std::size_t estimated = 0;  ///< normals that were missing and are estimated
-    std::size_t pieces = 0;     ///< of the surface that got their outside by themselves, not from given normals
-    std::size_t unknown = 0;    ///< points without a normal in the end: they lie on a line with all their neighbors
+    std::size_t points = 0;         ///< in different places
+    std::size_t duplicates = 0;     ///< dropped: points where another one is
+    std::size_t estimated = 0;      ///< normals that were missing and are estimated
+    std::size_t pieces = 0;         ///< of the surface that got their outside by themselves, not from given normals
+    std::size_t unknown = 0;        ///< points without a normal in the end: they lie on a line with all their neighbors
+    bool intensity_ignored = false; ///< as the cloud has it
 };
 
 /// What was done to a cloud that its file does not say, for a person; empty where nothing was.

@@ -19,6 +19,7 @@ struct PointCloud {
     /// (u, v): the point is a + u (b - a) + v (c - a) on its triangle (a, b, c); empty for scans
     std::vector<glm::vec2> barycentric;
     std::vector<glm::u8vec3> colors; ///< sRGB; empty where the source has none
+    bool intensity_ignored = false;  ///< its file tells one of every point, which is left out
 
     [[nodiscard]] std::size_t size() const { return positions.size(); } ///< points
 };

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <fstream>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -34,12 +34,44 @@ PointCloud read_ply_points(std::span<const std::uint8_t> bytes, const std::strin
 
 using Columns = std::array<double, 9>;
 
+constexpr std::string_view xyz_layout =
+    "a line holds x y z, then nothing, an intensity, a normal, a color, or normal and color: 3, 4, 6 or 9 numbers, as "
+    "many in each; before them may stand comments (# or //), the names of the columns, x y z first, and the number of "
+    "points";
+
+/// Whether this line holds the names of the columns: x, y, z, and whatever follows. Takes a copy, not to move on.
+bool names_columns(TextScanner text)
+{
+    std::string names;
+    for (std::string_view word = text.word_on_line(); !word.empty(); word = text.word_on_line()) {
+        for (const char c : word) {
+            if (std::string_view(",;\"").find(c) == std::string_view::npos) {
+                names += static_cast<char>(c | 0x20); // lower case
+            }
+            if (names.size() == 3) {
+                return names == "xyz";
+            }
+        }
+    }
+    return false;
+}
+
+/// Whether this line begins with a number.
+bool holds_numbers(TextScanner text)
+{
+    const std::string_view word = text.word_on_line();
+    return to_number(word.substr(0, word.find_first_of(",;"))).has_value() || word.starts_with("//");
+}
+
 /// The numbers of a line, before a comment. Returns how many there are: at most one too many.
 std::size_t read_line(TextScanner& text, Columns& columns)
 {
     std::size_t count = 0;
     for (std::string_view word = text.word_on_line(); !word.empty() && word.front() != '#';
          word = text.word_on_line()) {
+        if (word.starts_with("//")) {
+            break;
+        }
         for (std::size_t begin = 0; begin <= word.size();) { // "1,2,3" is one word
             const std::size_t end = std::min(word.find_first_of(",;", begin), word.size());
             if (end > begin || end < word.size()) {
@@ -76,12 +108,29 @@ PointCloud read_xyz(std::span<const std::uint8_t> bytes, const std::string& name
     TextScanner text(bytes, name);
     PointCloud cloud;
     Columns columns{};
-    std::size_t first_count = 0; // of columns
+    std::size_t first_count = 0;    // of columns
+    std::optional<double> promised; // points
+    bool named = false;             // the columns are
     for (bool more = text.next_content(); more; more = text.next_line() && text.next_content()) {
+        if (first_count == 0 && !named && names_columns(text)) {
+            named = true;
+            continue;
+        }
+        if (first_count == 0 && !holds_numbers(text)) {
+            throw text.error("neither a point nor a header: {}", xyz_layout);
+        }
         const std::size_t count = read_line(text, columns);
+        if (count == 0) { // a comment after all
+            continue;
+        }
+        if (count == 1 && first_count == 0 && !promised) {
+            promised = columns[0];
+            continue;
+        }
         first_count = first_count == 0 ? count : first_count;
-        if ((count != 3 && count != 6 && count != 9) || count != first_count) {
-            throw text.error("{} numbers in a line: there must be 3, 6 or 9, and as many in each", count);
+        if ((count != 3 && count != 4 && count != 6 && count != 9) || count != first_count) {
+            throw text.error("{}{} numbers in a line: {}", count > columns.size() ? "more than " : "",
+                             std::min(count, columns.size()), xyz_layout);
         }
         cloud.positions.emplace_back(columns[0], columns[1], columns[2]);
         if (count >= 6) {
@@ -91,6 +140,10 @@ PointCloud read_xyz(std::span<const std::uint8_t> bytes, const std::string& name
             cloud.colors.emplace_back(channel(columns[6]), channel(columns[7]), channel(columns[8]));
         }
     }
+    if (promised && *promised != static_cast<double>(cloud.size())) {
+        throw input_error("{}: the file says that it holds {} points, but holds {}", name, *promised, cloud.size());
+    }
+    cloud.intensity_ignored = first_count == 4;
     if (first_count == 6 && are_colors(cloud.normals)) {
         for (const glm::vec3& c : cloud.normals) {
             cloud.colors.emplace_back(channel(c.x), channel(c.y), channel(c.z));

@@ -227,6 +227,15 @@ TEST_F(SampleCli, ACloudIsFilled)
     EXPECT_EQ(sample({"floor.xyz", "-o", "floor.ply"}).exit_code, 0);
 }
 
+TEST_F(SampleCli, AnIntensityIsIgnoredAndThatIsTold)
+{
+    write("scan.xyz", "//X Y Z Intensity\n4\n0 0 0 17\n1 0 0 3\n0 0 1 5\n1 0 1 9\n");
+    const Result result = sample({"scan.xyz", "-o", "out.xyz"});
+    EXPECT_EQ(result.exit_code, 0);
+    EXPECT_TRUE(result.err.ends_with("; the fourth number of each line, an intensity, is ignored\n")) << result.err;
+    EXPECT_EQ(import_point_cloud(path("out.xyz")).size(), 4u);
+}
+
 TEST_F(SampleCli, WhatLiesTooFarFromTheOriginForItsSizeIsWarnedOf)
 {
     write("near.obj", "v 500 0 0\nv 501 0 0\nv 500 1 0\nf 1 2 3\n");

@@ -51,6 +51,7 @@ int main(int argc, char** argv)
     tetrahedron.normals = {{-1, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
     write_all(folder, "normals", tetrahedron);
     write(folder / "xyz", "plain", "# points\n0 0 0\n1.5e0 -2 3\n");
+    write(folder / "xyz", "named", "//X Y Z I\nx,y,z,i\n2\n0 0 0 0.5\n1 2 3 7 // the last\n");
     write(folder / "xyz", "full", "0 0 0 0 0 1 255 0 0\n1,2,3,1,0,0,1,2,3\n");
     for (const std::string& name : builtin_scene_names()) {
         write(folder / "scene", name, write_scene(builtin_scene(name)));

@@ -122,11 +122,75 @@ TEST(PointCloudImport, XyzOfThreeSixAndNineColumns)
     EXPECT_EQ(both.colors[1], glm::u8vec3(6, 5, 4));
 }
 
+TEST(PointCloudImport, XyzWithAHeader)
+{
+    for (const char* header :
+         {"//X Y Z Nx Ny Nz\n", "// X,Y,Z\n", "# x y z\n", "x y z\n", "X;Y;Z\n", "\"x\",\"y\",\"z\",\"r\"\n", "2\n",
+          "# a scan\n\n2 # points\n", "//X Y Z\n2\r\n", "x y z\n 2\n", "X Y Z Intensity\n// made by hand\n"}) {
+        const PointCloud cloud = parse(std::string(header) + "1 2 3 // the first\n//4 4 4\n4,5,6\n", "p.xyz");
+        ASSERT_EQ(cloud.size(), 2u) << header;
+        EXPECT_EQ(cloud.positions[0], glm::vec3(1.0f, 2.0f, 3.0f)) << header;
+        EXPECT_EQ(cloud.positions[1], glm::vec3(4.0f, 5.0f, 6.0f)) << header;
+        EXPECT_FALSE(cloud.intensity_ignored);
+    }
+}
+
+TEST(PointCloudImport, XyzWithAnIntensity)
+{
+    const PointCloud cloud = parse("//X Y Z I\n1 2 3 0.5\n4 5 6 -2047\n7 8 9 nan\n", "p.xyz");
+    ASSERT_EQ(cloud.size(), 3u);
+    EXPECT_EQ(cloud.positions[1], glm::vec3(4.0f, 5.0f, 6.0f));
+    EXPECT_TRUE(cloud.normals.empty());
+    EXPECT_TRUE(cloud.colors.empty());
+    EXPECT_TRUE(cloud.intensity_ignored);
+}
+
+TEST(PointCloudImport, ErrorsTellWhatAFileOfPointsMayHold)
+{
+    const std::string layout = "a line holds x y z, then nothing, an intensity, a normal, a color, or normal and "
+                               "color: 3, 4, 6 or 9 numbers, as many in each; before them may stand comments (# or "
+                               "//), the names of the columns, x y z first, and the number of points";
+    EXPECT_EQ(refusal("1 2 3\n4 5\n", "p.xyz"), "p.xyz:2: 2 numbers in a line: " + layout);
+    EXPECT_EQ(refusal("1 2 3 4 5 6 7 8 9 10 11\n", "p.xyz"), "p.xyz:1: more than 9 numbers in a line: " + layout);
+    EXPECT_EQ(refusal("# a scan\na scan\n1 2 3\n", "p.xyz"), "p.xyz:2: neither a point nor a header: " + layout);
+    EXPECT_EQ(refusal("3\n1 2 3\n4 5 6\n", "p.xyz"), "p.xyz: the file says that it holds 3 points, but holds 2");
+    EXPECT_EQ(refusal("1\n1 2 3\n4 5 6\n", "p.xyz"), "p.xyz: the file says that it holds 1 points, but holds 2");
+}
+
 TEST(PointCloudImport, BrokenFilesAreRefused)
 {
-    for (const char* text : {"\n", "# nothing\n", "1 2\n", "1 2 3 4\n", "1 2 3 4 5 6 7\n", "1 2 3\n1 2 3 4 5 6\n",
-                             "1 2 3\n1 2 x\n", "1 2 3x\n", "nan 0 0\n", "0 inf 0\n", "1e300 0 0\n", "1e10 0 0\n",
-                             "1 2 3 4 5 6 7 8 9 10\n", "1,,2\n", "ply\n"}) {
+    for (const char* text : {"\n",
+                             "# nothing\n",
+                             "1 2\n",
+                             "1 2 3 4 5\n",
+                             "1 2 3\n1 2 3 4\n",
+                             "1 2 3 4 5 6 7\n",
+                             "//x y z\n",
+                             "x y z\n",
+                             "x y z\nx y z\n1 2 3\n",
+                             "1 2 3\nx y z\n",
+                             "y x z\n1 2 3\n",
+                             "x y\n1 2 3\n",
+                             "/ x y z\n1 2 3\n",
+                             "2\n",
+                             "-1\n",
+                             "0\n",
+                             "1.5\n1 2 3\n",
+                             "nan\n1 2 3\n",
+                             "1e99\n1 2 3\n",
+                             "1\n1\n1 2 3\n",
+                             "1 2 3\n1\n",
+                             "3\nwater\nO 0 0 0\nH 1 0 0\nH 0 1 0\n",
+                             "1 2 3\n1 2 3 4 5 6\n",
+                             "1 2 3\n1 2 x\n",
+                             "1 2 3x\n",
+                             "nan 0 0\n",
+                             "0 inf 0\n",
+                             "1e300 0 0\n",
+                             "1e10 0 0\n",
+                             "1 2 3 4 5 6 7 8 9 10\n",
+                             "1,,2\n",
+                             "ply\n"}) {
         EXPECT_NE(refusal(text, "p.xyz"), "") << text;
     }
     EXPECT_NE(refusal("1 2 3\n4 5 x6\n", "p.xyz").find("p.xyz:2: a column is \"x6\", not a number"), std::string::npos);
