@@ -135,13 +135,13 @@ mutation "barrier: the workgroup counts of an indirect dispatch are not waited f
     conformance_tests 'CountingSortTest.*'
 mutation "barrier: a read of texels is not one of a shader's reads" \
     engine/gpu/commands.cpp \
-    'as_texels ? VK_ACCESS_2_SHADER_SAMPLED_READ_BIT' \
-    'as_texels ? VK_ACCESS_2_SHADER_STORAGE_READ_BIT' \
+    'return VK_ACCESS_2_SHADER_SAMPLED_READ_BIT' \
+    'return VK_ACCESS_2_SHADER_STORAGE_READ_BIT' \
     conformance_tests 'Steps.OneStepIsTheTwins'
 mutation "barrier: a pass declares that it only reads what it writes" \
     engine/sim/wcsph.cpp \
-    'read(particles.acceleration), read_write(particles.velocity)' \
-    'read(particles.acceleration), read(particles.velocity)' \
+    'read_write(particles.velocity), read(particles.velocity)})' \
+    'read(particles.velocity), read(particles.velocity)})' \
     conformance_tests 'Steps.OneStepIsTheTwins'
 
 # --- kernels ------------------------------------------------------------------------------------------------------------
@@ -181,8 +181,8 @@ mutation "kernels in GLSL: coincident particles push each other" \
 
 mutation "neighbors: rows end one cell too early" \
     shaders/include/neighbor_walk.glsl \
-    'walk.last + reach + 1)' \
-    'walk.last + reach)' \
+    'high.x + reach + 1)' \
+    'high.x + reach)' \
     conformance_tests '*PassConformance.AllPasses/Random*'
 mutation "neighbors: candidates in overlapping rows of a tile count twice" \
     shaders/include/neighbor_walk.glsl \
@@ -195,32 +195,32 @@ mutation "neighbors: the last rows of cells are not searched" \
     'lessThan(walk.offset, walk.high)' \
     conformance_tests '*PassConformance.AllPasses/Random*'
 mutation "neighbors: particles of a wide tile walk together with all" \
-    shaders/include/neighbor_walk.glsl \
-    '(walk.particle == int(k) ? x[k] : NOWHERE)' \
+    shaders/include/image_walk.glsl \
+    'tile.walks == TOGETHER || tile.walks == int(k) ? x[k] : NOWHERE' \
     'x[k]' \
     conformance_tests '*PassConformance.EveryTileSize/SprayAboveAFloor*'
 mutation "neighbors: of a wide tile the last particle does not walk" \
-    shaders/include/neighbor_walk.glsl \
-    'walk.particle + 1 == int(TILE)' \
-    'walk.particle + 2 == int(TILE)' \
+    shaders/include/image_walk.glsl \
+    'tile.first + uint(tile.walks) < tile.last' \
+    'tile.first + uint(tile.walks) + 1u < tile.last' \
     conformance_tests '*PassConformance.EveryTileSize/SprayAboveAFloor*'
-mutation "neighbors: a wide tile's particles visit again what they have visited together" \
+mutation "neighbors: of a box of two rows the last row's neighbors are not visited" \
     shaders/include/neighbor_walk.glsl \
-    'together && !is_wide ? range.y : walk.visited_end' \
-    'together && !is_wide ? range.y : 0u' \
-    conformance_tests '*PassConformance.EveryTileSize/WideHalfway*'
+    'min(extent.yz + 1,' \
+    'min(ivec2(1),' \
+    conformance_tests '*PassConformance.EveryTileSize/*'
 mutation "neighbors: velocities are not moved into the sorted order" \
     shaders/sim/reorder.comp \
-    'sorted_velocity[slot] = velocity[source]' \
-    'sorted_velocity[slot] = velocity[slot]' \
+    'load_candidate(velocity, source)' \
+    'load_candidate(velocity, slot)' \
     conformance_tests '*PassConformance.AllPasses/Random*'
 
 # --- density, state equation, forces, walls, integrator -----------------------------------------------------------------
 
 mutation "density: in terms of the rest density's mass instead of the particle's" \
     shaders/sim/density.comp \
-    'mass = velocity[i].w' \
-    'mass = velocity[tile.first].w' \
+    'load_candidate(velocity, i).w' \
+    'load_candidate(velocity, tile.first).w' \
     conformance_tests 'MaterialConformance.TwoRestDensities'
 mutation "state equation: Tait without its exponent in the stiffness" \
     shaders/sim/density.comp \
@@ -264,8 +264,8 @@ mutation "colliders: they push with the fluid's weight" \
     conformance_tests '*PassConformance.AllPasses/OnACollider*'
 mutation "colliders: their friction is the fluid's viscosity" \
     shaders/sim/density.comp \
-    'params.viscosity_scale * friction * volume' \
-    'params.viscosity_scale * params.viscosity * volume' \
+    'boundary ? params.friction[material] : params.viscosity' \
+    'params.viscosity' \
     conformance_tests '*PassConformance.EachForceAlone/OnACollider*'
 mutation "colliders: fluid counts in the space that they take" \
     shaders/sim/boundary_weight.comp \

@@ -37,7 +37,7 @@ ParticleBuffers make_particle_buffers(const gpu::Context& context, std::uint32_t
     particles.attributes = gpu::make_buffer<std::uint32_t>(context, count, "attributes");
     particles.position = gpu::make_texel_buffer(context, count, "position");
     particles.velocity = gpu::make_texel_buffer(context, count, "velocity");
-    particles.acceleration = gpu::make_buffer<glm::vec4>(context, count, "acceleration");
+    particles.acceleration = gpu::make_texel_buffer(context, count, "acceleration");
     particles.density = gpu::make_buffer<float>(context, count, "density");
     particles.pressure = gpu::make_buffer<float>(context, count, "pressure");
     particles.interaction = gpu::make_texel_buffer(context, count, "interaction");

@@ -41,9 +41,11 @@ std::uint32_t default_tile(const gpu::DeviceInfo& device)
 }
 
 FluidKernels::FluidKernels(const gpu::Context& context, const FluidOptions& options)
-    : tile(checked_tile(context.info(), options.tile)), kick_drift(context, "kick_drift", sim_kick_drift_comp),
-      kick(context, "kick", sim_kick_comp), cell_key(context, "cell_key", sim_cell_key_comp),
-      reorder(context, "reorder", sim_reorder_comp),
+    : tile(checked_tile(context.info(), options.tile)),
+      kick_drift(context, "kick_drift", sim_kick_drift_comp, constants(tile, options)),
+      kick(context, "kick", sim_kick_comp, constants(tile, options)),
+      cell_key(context, "cell_key", sim_cell_key_comp, constants(tile, options)),
+      reorder(context, "reorder", sim_reorder_comp, constants(tile, options)),
       boundary_weight(context, "boundary_weight", sim_boundary_weight_comp, constants(tile, options)),
       density(context, "density", sim_density_comp, constants(tile, options)),
       forces(context, "forces", sim_forces_comp, constants(tile, options)),

@@ -52,7 +52,7 @@ void record_sort(gpu::Commands& commands, const FluidKernels& kernels, const gpu
     {
         const gpu::Scope scope(commands, "cell key");
         commands.dispatch(kernels.cell_key, particles.count, gpu::NoPush{},
-                          {read(params), read(particles.position), write(grid.key)});
+                          {read(params), read(particles.position), read(particles.position), write(grid.key)});
     }
     {
         const gpu::Scope scope(commands, "sort");
@@ -62,8 +62,9 @@ void record_sort(gpu::Commands& commands, const FluidKernels& kernels, const gpu
     const gpu::Scope scope(commands, "reorder");
     commands.dispatch(kernels.reorder, particles.count, gpu::NoPush{},
                       {read(params), read(grid.order), read(particles.id), read(particles.attributes),
-                       read(particles.position), read(particles.velocity), write(grid.sorted_id),
-                       write(grid.sorted_attributes), write(grid.sorted_position), write(grid.sorted_velocity)});
+                       read(particles.position), read(particles.position), read(particles.velocity),
+                       read(particles.velocity), write(grid.sorted_id), write(grid.sorted_attributes),
+                       write(grid.sorted_position), write(grid.sorted_velocity)});
     std::swap(particles.id, grid.sorted_id);
     std::swap(particles.attributes, grid.sorted_attributes);
     std::swap(particles.position, grid.sorted_position);

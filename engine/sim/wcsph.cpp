@@ -13,8 +13,9 @@ void record_kick_drift(gpu::Commands& commands, const FluidKernels& kernels, con
 {
     const gpu::Scope scope(commands, "kick and drift");
     commands.dispatch(kernels.kick_drift, particles.count, step,
-                      {read(params), read(particles.id), read(particles.acceleration), read_write(particles.attributes),
-                       read_write(particles.position), read_write(particles.velocity), read_write(status)});
+                      {read(params), read(particles.id), read(particles.acceleration), read(particles.acceleration),
+                       read_write(particles.attributes), read_write(particles.position), read(particles.position),
+                       read_write(particles.velocity), read(particles.velocity), read_write(status)});
 }
 
 void record_boundary_weight(gpu::Commands& commands, const FluidKernels& kernels, const gpu::Buffer& params,
@@ -33,8 +34,8 @@ void record_density(gpu::Commands& commands, const FluidKernels& kernels, const 
     const gpu::Scope scope(commands, "density");
     commands.dispatch(kernels.density, kernels.tiles(particles.count), gpu::NoPush{},
                       {read(params), read(grid.cell_start), read(particles.position), read(particles.position),
-                       read(particles.attributes), read(particles.velocity), write(particles.density),
-                       write(particles.pressure), write(particles.interaction)});
+                       read(particles.attributes), read(particles.velocity), read(particles.velocity),
+                       write(particles.density), write(particles.pressure), write(particles.interaction)});
 }
 
 void record_forces(gpu::Commands& commands, const FluidKernels& kernels, const gpu::Buffer& params,
@@ -52,16 +53,17 @@ void record_kick(gpu::Commands& commands, const FluidKernels& kernels, const gpu
 {
     const gpu::Scope scope(commands, "kick");
     commands.dispatch(kernels.kick, particles.count, gpu::NoPush{},
-                      {read(params), read(particles.acceleration), read_write(particles.velocity)});
+                      {read(params), read(particles.acceleration), read(particles.acceleration),
+                       read_write(particles.velocity), read(particles.velocity)});
 }
 
 void record_count_neighbors(gpu::Commands& commands, const FluidKernels& kernels, const gpu::Buffer& params,
                             const ParticleBuffers& particles, const NeighborGrid& grid, const gpu::Buffer& counts)
 {
     const gpu::Scope scope(commands, "count neighbors");
-    commands.dispatch(
-        kernels.count_neighbors, kernels.tiles(particles.count), gpu::NoPush{},
-        {read(params), read(grid.cell_start), read(particles.position), read(particles.id), write(counts)});
+    commands.dispatch(kernels.count_neighbors, kernels.tiles(particles.count), gpu::NoPush{},
+                      {read(params), read(grid.cell_start), read(particles.position), read(particles.position),
+                       read(particles.id), write(counts)});
 }
 
 void record_evaluation(gpu::Commands& commands, const FluidKernels& kernels, const gpu::Buffer& params,

@@ -6,12 +6,19 @@
 #include "include/neighbor_walk.glsl"
 #include "include/walls.glsl"
 
+const int TOGETHER = -1;
+
 // The particles that one invocation owns: first .. last; where there are fewer than TILE, the last one is repeated.
 struct Tile {
     uint first;
     uint last;
-    uint images; // that at least one of them has, bit 0 themselves: a bit for each number of an image
+    uint images;      // that at least one of them has, bit 0 themselves: a bit for each number of an image
+    bool is_wide;     // they walk one by one
+    uint images_left; // of those who walk
+    int walks;        // that one of them, or TOGETHER
 };
+
+Walk begin_walk(vec3 x[TILE]) { return begin_walk(x, params.domain_min, params.support_radius, params.grid_size); }
 
 // `own`: the positions and weights of its particles.
 Tile load_tile(uint invocation, out vec4 own[TILE])
@@ -20,33 +27,49 @@ Tile load_tile(uint invocation, out vec4 own[TILE])
     tile.first = invocation * TILE;
     tile.last = min(tile.first + TILE, params.particle_count) - 1u;
     uvec3 near_walls = uvec3(0u); // axes along which at least one has a wall within its support
+    vec3 x[TILE];
     [[unroll]] for (uint k = 0u; k < TILE; ++k) {
         own[k] = load_candidate(position, min(tile.first + k, tile.last));
-        Walls walls = nearest_walls(own[k].xyz, params.domain_min, params.domain_max, params.wall_mask);
+        x[k] = own[k].xyz;
+        Walls walls = nearest_walls(x[k], params.domain_min, params.domain_max, params.wall_mask);
         near_walls |= uvec3(lessThan(walls.distance, vec3(params.support_radius)));
     }
     tile.images = 1u;
     tile.images |= near_walls.x * tile.images << 1u;
     tile.images |= near_walls.y * tile.images << 2u;
     tile.images |= near_walls.z * tile.images << 4u;
+    tile.is_wide = TILE > 1u && is_wide(begin_walk(x));
     return tile;
 }
 
-// The image of each particle, NOWHERE if it has none. Image 0 is the particle itself.
-void image_positions(vec4 own[TILE], uint image, out vec3 x[TILE])
+uint first_image(inout Tile tile)
+{
+    tile.images_left = tile.images;
+    tile.walks = tile.is_wide ? 0 : TOGETHER;
+    return 0u;
+}
+
+uint next_image(inout Tile tile)
+{
+    tile.images_left &= tile.images_left - 1u;
+    bool next_particle = tile.is_wide && tile.images_left == 0u && tile.first + uint(tile.walks) < tile.last;
+    tile.walks += next_particle ? 1 : 0;
+    tile.images_left = next_particle ? tile.images : tile.images_left;
+    return uint(findLSB(tile.images_left));
+}
+
+// The image of each particle that walks; NOWHERE for the others and for those who have none. Image 0 is the particle itself.
+void image_positions(Tile tile, vec4 own[TILE], uint image, out vec3 x[TILE])
 {
     [[unroll]] for (uint k = 0u; k < TILE; ++k) {
         Walls walls = nearest_walls(own[k].xyz, params.domain_min, params.domain_max, params.wall_mask);
         x[k] = image_position(own[k].xyz, image, walls, params.support_radius);
+        x[k] = tile.walks == TOGETHER || tile.walks == int(k) ? x[k] : NOWHERE;
     }
 }
 
-Walk begin_walk(vec3 x[TILE], out vec3 present[TILE])
-{
-    return begin_walk(x, present, params.domain_min, params.support_radius, params.grid_size);
-}
-
 // for every image that the tile has, in ascending order
-#define FOR_EACH_IMAGE(image, tile)                                                                                       for (uint images_left = tile.images, image = 0u; images_left != 0u;                                                        images_left &= images_left - 1u, image = uint(findLSB(images_left)))
+#define FOR_EACH_IMAGE(image, tile)                                                                                   \
+    for (uint image = first_image(tile); tile.images_left != 0u; image = next_image(tile))
 
 #endif

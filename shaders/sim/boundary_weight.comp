@@ -36,14 +36,13 @@ void main()
     }
     FOR_EACH_IMAGE(image, tile) {
         vec3 x[TILE];
-        image_positions(own, image, x);
-        vec3 present[TILE];
-        Walk walk = begin_walk(x, present);
-        FOR_EACH_CANDIDATE(range, walk, x, present) {
+        image_positions(tile, own, image, x);
+        Walk walk = begin_walk(x);
+        FOR_EACH_CANDIDATE(range, walk) {
             vec3 xj = load_candidate(position, range.x).xyz;
             float counts = is_boundary(attributes[range.x]) ? 1.0 : 0.0;
             [[unroll]] for (uint k = 0u; k < TILE; ++k) {
-                vec3 offset = present[k] - xj;
+                vec3 offset = x[k] - xj;
                 sum[k] += counts * density_shape(dot(offset, offset), size);
             }
         }

@@ -16,9 +16,10 @@ layout(set = 0, binding = 2, scalar) readonly buffer Position { vec4 position[];
 layout(set = 0, binding = 3) uniform textureBuffer position_texels;
 layout(set = 0, binding = 4, scalar) readonly buffer Attributes { uint attributes[]; };
 layout(set = 0, binding = 5, scalar) readonly buffer Velocity { vec4 velocity[]; }; // w: mass
-layout(set = 0, binding = 6, scalar) writeonly buffer Density { float density[]; };
-layout(set = 0, binding = 7, scalar) writeonly buffer Pressure { float pressure[]; };
-layout(set = 0, binding = 8, scalar) writeonly buffer Interaction { vec4 interaction[]; }; // of shared/sph_params.h
+layout(set = 0, binding = 6) uniform textureBuffer velocity_texels;
+layout(set = 0, binding = 7, scalar) writeonly buffer Density { float density[]; };
+layout(set = 0, binding = 8, scalar) writeonly buffer Pressure { float pressure[]; };
+layout(set = 0, binding = 9, scalar) writeonly buffer Interaction { vec4 interaction[]; }; // of shared/sph_params.h
 
 #include "include/boundary.glsl"
 #include "include/image_walk.glsl"
@@ -52,13 +53,12 @@ void main()
 
     FOR_EACH_IMAGE(image, tile) {
         vec3 x[TILE];
-        image_positions(own, image, x);
-        vec3 present[TILE];
-        Walk walk = begin_walk(x, present);
-        FOR_EACH_CANDIDATE(range, walk, x, present) {
+        image_positions(tile, own, image, x);
+        Walk walk = begin_walk(x);
+        FOR_EACH_CANDIDATE(range, walk) {
             vec4 xj = load_candidate(position, range.x);
             [[unroll]] for (uint k = 0u; k < TILE; ++k) {
-                vec3 offset = present[k] - xj.xyz;
+                vec3 offset = x[k] - xj.xyz;
                 sum[k] += xj.w * density_shape(dot(offset, offset), size);
             }
         }
@@ -69,21 +69,17 @@ void main()
         if (i > tile.last) {
             break;
         }
-        if (is_boundary(attributes[i])) {
-            float volume = own[k].w * params.spacing * params.spacing * params.spacing;
-            float friction = params.friction[particle_material(attributes[i])];
-            density[i] = 0.0;
-            pressure[i] = 0.0;
-            interaction[i] = vec4(0.0, volume, params.viscosity_scale * friction * volume, 0.0);
-            continue;
-        }
-        float mass = velocity[i].w;
-        float rho0 = params.rest_density[particle_material(attributes[i])];
+        // Both kinds store in one place: software devices would walk through two.
+        bool boundary = is_boundary(attributes[i]);
+        uint material = particle_material(attributes[i]);
+        float mass = load_candidate(velocity, i).w;
         float rho = mass * params.density_scale * sum[k];
-        float p = state_equation(rho, rho0);
-        float volume = mass / rho;
-        density[i] = rho;
+        float p = boundary ? 0.0 : state_equation(rho, params.rest_density[material]);
+        float d3 = params.spacing * params.spacing * params.spacing;
+        float volume = boundary ? own[k].w * d3 : mass / rho;
+        float viscosity = boundary ? params.friction[material] : params.viscosity;
+        density[i] = boundary ? 0.0 : rho;
         pressure[i] = p;
-        interaction[i] = vec4(params.gradient_scale * p * volume * volume, volume, params.viscosity_scale * params.viscosity * volume, 0.0);
+        interaction[i] = vec4(params.gradient_scale * p * volume * volume, volume, params.viscosity_scale * viscosity * volume, 0.0);
     }
 }

@@ -82,7 +82,7 @@ void main()
     FOR_EACH_IMAGE(image, tile) {
         // The tile, not the candidates, is reflected at the walls of the image: position, velocity, and the force back.
         vec3 x[TILE];
-        image_positions(own, image, x);
+        image_positions(tile, own, image, x);
         vec3 flips = signs * image_signs(image);
         signs = image_signs(image);
         vec3 image_force[TILE];
@@ -92,9 +92,8 @@ void main()
             image_force[k] = vec3(0.0);
             image_gradient[k] = vec3(0.0);
         }
-        vec3 present[TILE];
-        Walk walk = begin_walk(x, present);
-        FOR_EACH_CANDIDATE(range, walk, x, present) {
+        Walk walk = begin_walk(x);
+        FOR_EACH_CANDIDATE(range, walk) {
             uint j = range.x;
             vec4 xj = load_candidate(position, j);
             vec3 vj = load_candidate(velocity, j).xyz;
@@ -103,7 +102,7 @@ void main()
             float volume_j = interaction_j.y;
             float viscous_term_j = interaction_j.z;
             [[unroll]] for (uint k = 0u; k < TILE; ++k) {
-                vec3 offset = present[k] - xj.xyz;
+                vec3 offset = x[k] - xj.xyz;
                 float r2 = dot(offset, offset);
                 vec2 shape = force_shapes(r2, size);
                 float pressure_terms = pressure_term[k] * xj.w + pressure_term_j;
@@ -127,10 +126,6 @@ void main()
         if (i > tile.last) {
             break;
         }
-        if (is_boundary(attributes[i])) {
-            acceleration[i] = vec4(0.0);
-            continue;
-        }
         float rho = mass[k] / volume[k];
         vec3 a = params.gravity + force[k] / mass[k];
         a += wall_acceleration(own[k].xyz, signs * v[k], rho);
@@ -138,6 +133,6 @@ void main()
             a += tension_acceleration(params.color_gradient_scale * color_gradient[k],
                                       params.color_laplacian_scale * color_laplacian[k], rho);
         }
-        acceleration[i] = vec4(a, 0.0);
+        acceleration[i] = vec4(is_boundary(attributes[i]) ? vec3(0.0) : a, 0.0);
     }
 }

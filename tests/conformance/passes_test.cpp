@@ -34,7 +34,7 @@ const std::vector<NamedState>& states()
          [] {
              return spray_above_a_floor();
          }},
-        {"WideHalfway", // likewise, but only in some rows
+        {"WideHalfway", // likewise, though only some rows would need it
          [] {
              return wide_halfway();
          }},
