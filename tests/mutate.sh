@@ -208,7 +208,7 @@ mutation "neighbors: of a box of two rows the last row's neighbors are not visit
     shaders/include/neighbor_walk.glsl \
     'min(extent.yz + 1,' \
     'min(ivec2(1),' \
-    conformance_tests '*PassConformance.EveryTileSize/*'
+    conformance_tests '*PassConformance.EveryTileSize/Coincident*'
 mutation "neighbors: velocities are not moved into the sorted order" \
     shaders/sim/reorder.comp \
     'load_candidate(velocity, source)' \
