@@ -16,17 +16,6 @@ namespace {
 constexpr std::uint32_t no_scope = ~0u;
 constexpr std::size_t max_bindings = 16;
 
-/// Workgroup counts along x and y that cover `groups`; shaders flatten them again (include/invocation.glsl).
-std::array<std::uint32_t, 2> split_groups(std::uint32_t groups, const VkPhysicalDeviceLimits& limits)
-{
-    const std::uint32_t widest = limits.maxComputeWorkGroupCount[0];
-    if (groups <= widest) {
-        return {groups, 1};
-    }
-    const std::uint32_t rows = (groups + widest - 1) / widest;
-    return {(groups + rows - 1) / rows, rows};
-}
-
 bool allows(ShaderAccess shader, Access declared)
 {
     switch (shader) {
@@ -53,6 +42,19 @@ VkAccessFlags2 read_access(VkDescriptorType type)
 }
 
 } // namespace
+
+std::array<std::uint32_t, 3> workgroups(const Context& context, const Kernel& kernel, std::uint32_t invocations)
+{
+    const std::uint32_t size = kernel.shader().workgroup_size;
+    const std::uint32_t groups = (invocations + size - 1) / size;
+    const std::uint32_t widest = context.limits().maxComputeWorkGroupCount[0];
+    if (groups <= widest) {
+        return {groups, 1, 1};
+    }
+    // Shaders flatten them again (include/invocation.glsl).
+    const std::uint32_t rows = (groups + widest - 1) / widest;
+    return {(groups + rows - 1) / rows, rows, 1};
+}
 
 Commands::Commands(const Context& context, std::uint32_t max_scopes)
     : context_(&context), max_scopes_(context.info().timestamp_bits > 0 ? max_scopes : 0)
@@ -209,6 +211,7 @@ void Commands::bind(const Kernel& kernel, std::span<const std::byte> push, std::
     std::array<VkDescriptorBufferInfo, max_bindings> buffers{};
     std::array<VkBufferView, max_bindings> views{};
     std::array<VkWriteDescriptorSet, max_bindings> writes{};
+    std::array<VkAccessFlags2, max_bindings> write_access{};
     for (std::size_t i = 0; i < bindings.size(); ++i) {
         const Binding& binding = bindings[i];
         if (!allows(shader.bindings[i].access, binding.access)) {
@@ -225,7 +228,11 @@ void Commands::bind(const Kernel& kernel, std::span<const std::byte> push, std::
         VkAccessFlags2 access = 0;
         access |= binding.access != Access::Write ? read_access(type) : 0;
         access |= binding.access != Access::Read ? VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT : 0;
-        use(*binding.buffer, VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT, access, binding.access != Access::Read);
+        if (binding.access == Access::Read) {
+            use(*binding.buffer, VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT, access, false);
+        } else {
+            write_access[i] = access;
+        }
 
         buffers[i] = {binding.buffer->handle(), 0, VK_WHOLE_SIZE};
         writes[i] = {VK_STRUCTURE_TYPE_WRITE_DESCRIPTOR_SET};
@@ -235,6 +242,12 @@ void Commands::bind(const Kernel& kernel, std::span<const std::byte> push, std::
         writes[i].pBufferInfo = &buffers[i];
         views[i] = binding.buffer->texels();
         writes[i].pTexelBufferView = &views[i];
+    }
+    // Writes after reads: what the same dispatch has read of a buffer does not see what it writes there.
+    for (std::size_t i = 0; i < bindings.size(); ++i) {
+        if (bindings[i].access != Access::Read) {
+            use(*bindings[i].buffer, VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT, write_access[i], true);
+        }
     }
     const VolkDeviceTable& vk = context_->vk();
     vk.vkCmdBindPipeline(buffer_, VK_PIPELINE_BIND_POINT_COMPUTE, kernel.pipeline());
@@ -254,9 +267,8 @@ void Commands::dispatch_bytes(const Kernel& kernel, std::uint32_t invocations, s
     }
     bind(kernel, push, bindings);
     flush_barriers();
-    const std::uint32_t size = kernel.shader().workgroup_size;
-    const auto [x, y] = split_groups((invocations - 1) / size + 1, context_->limits());
-    context_->vk().vkCmdDispatch(buffer_, x, y, 1);
+    const auto [x, y, z] = workgroups(*context_, kernel, invocations);
+    context_->vk().vkCmdDispatch(buffer_, x, y, z);
 }
 
 void Commands::dispatch_indirect_bytes(const Kernel& kernel, const Buffer& arguments, VkDeviceSize offset,
@@ -268,11 +280,11 @@ void Commands::dispatch_indirect_bytes(const Kernel& kernel, const Buffer& argum
     context_->vk().vkCmdDispatchIndirect(buffer_, arguments.handle(), offset);
 }
 
-void Commands::fill(const Buffer& buffer, std::uint32_t word, VkDeviceSize bytes)
+void Commands::fill(const Buffer& buffer, std::uint32_t word, VkDeviceSize bytes, VkDeviceSize offset)
 {
     use(buffer, VK_PIPELINE_STAGE_2_ALL_TRANSFER_BIT, VK_ACCESS_2_TRANSFER_WRITE_BIT, true);
     flush_barriers();
-    context_->vk().vkCmdFillBuffer(buffer_, buffer.handle(), 0, bytes, word);
+    context_->vk().vkCmdFillBuffer(buffer_, buffer.handle(), offset, bytes, word);
 }
 
 void Commands::copy(const Buffer& source, const Buffer& target, VkDeviceSize bytes, VkDeviceSize source_offset,
@@ -320,10 +332,11 @@ std::vector<Timing> Commands::timings() const
         return {};
     }
     std::vector<std::uint64_t> ticks(2 * scopes_.size());
-    check(context_->vk().vkGetQueryPoolResults(context_->device(), queries_, 0, static_cast<std::uint32_t>(ticks.size()),
+    check(
+        context_->vk().vkGetQueryPoolResults(context_->device(), queries_, 0, static_cast<std::uint32_t>(ticks.size()),
                                              ticks.size() * sizeof(std::uint64_t), ticks.data(), sizeof(std::uint64_t),
                                              VK_QUERY_RESULT_64_BIT | VK_QUERY_RESULT_WAIT_BIT),
-          "reading the timestamps");
+        "reading the timestamps");
     std::vector<Timing> timings;
     for (std::size_t i = 0; i < scopes_.size(); ++i) {
         auto timing = std::find_if(timings.begin(), timings.end(),

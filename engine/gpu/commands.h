@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <initializer_list>
 #include <span>
@@ -35,6 +36,10 @@ struct Binding {
 
 /// For dispatches of shaders without push constants.
 struct NoPush {};
+
+/// Workgroups along x, y and z that cover `invocations` of a kernel, as dispatch chooses them: for indirect dispatches.
+[[nodiscard]] std::array<std::uint32_t, 3> workgroups(const Context& context, const Kernel& kernel,
+                                                      std::uint32_t invocations);
 
 /// How long the scopes of one name took.
 struct Timing {
@@ -91,8 +96,8 @@ public:
         dispatch_indirect_bytes(kernel, arguments, offset, {}, {bindings.begin(), bindings.size()});
     }
 
-    /// Sets every 32-bit word of the first `bytes` bytes (all by default).
-    void fill(const Buffer& buffer, std::uint32_t word, VkDeviceSize bytes = VK_WHOLE_SIZE);
+    /// Sets every 32-bit word of `bytes` bytes (all by default) from byte `offset` on.
+    void fill(const Buffer& buffer, std::uint32_t word, VkDeviceSize bytes = VK_WHOLE_SIZE, VkDeviceSize offset = 0);
     /// Copies `bytes` bytes from one buffer to another.
     void copy(const Buffer& source, const Buffer& target, VkDeviceSize bytes, VkDeviceSize source_offset = 0,
               VkDeviceSize target_offset = 0);
