@@ -208,7 +208,7 @@ mutation "neighbors: of a box of two rows the last row's neighbors are not visit
     shaders/include/neighbor_walk.glsl \
     'min(extent.yz + 1,' \
     'min(ivec2(1),' \
-    conformance_tests '*PassConformance.EveryTileSize/Coincident*'
+    conformance_tests '*PassConformance.EveryTileSize/*'
 mutation "neighbors: velocities are not moved into the sorted order" \
     shaders/sim/reorder.comp \
     'load_candidate(velocity, source)' \
@@ -359,15 +359,79 @@ mutation "integrator: a whole kick before the drift" \
     conformance_tests 'Steps.FreeFallIsExact'
 mutation "integrator: no second kick" \
     engine/sim/wcsph.cpp \
-    '    record_kick(commands, kernels, params, particles);
+    '    record_kick(commands, fluid.kernels, fluid.params, fluid.particles);
 }' \
     '}' \
     conformance_tests 'Steps.FreeFallIsExact'
 mutation "faults: the largest id is reported" \
-    shaders/sim/kick_drift.comp \
+    shaders/include/watch.glsl \
     'atomicMin(status.offender' \
     'atomicMax(status.offender' \
     conformance_tests 'Steps.ANotANumberIsReportedWithTheSmallestId'
+
+# --- solved pressure and time steps ---------------------------------------------------------------------------------------
+mutation "solve: the diagonal forgets the neighbors" \
+    shaders/sim/density.comp \
+    '/ mass + gradient_squares[k]' \
+    '/ mass + 0.5 * gradient_squares[k]' \
+    conformance_tests '*PassConformance.SolvedPressure/Splash*'
+mutation "solve: corrections pull one way" \
+    shaders/sim/dfsph_correct.comp \
+    'pressure_term[k] * xj.w + pressure_term_j' \
+    '2.0 * pressure_term_j' \
+    conformance_tests '*PassConformance.SolvedPressure/Splash*'
+mutation "solve: images move like the particles" \
+    shaders/sim/dfsph_residual.comp \
+    'v[k] *= flips' \
+    'v[k] *= abs(flips)' \
+    conformance_tests '*PassConformance.SolvedPressure/LatticeOnTheFloor*'
+mutation "solve: pressures pull" \
+    shaders/sim/dfsph_residual.comp \
+    'max(warm + response * excess, 0.0)' \
+    'warm + response * excess' \
+    conformance_tests '*PassConformance.SolvedPressure/Splash*'
+mutation "solve: no warm start" \
+    shaders/sim/dfsph_residual.comp \
+    '? WARM_START * warm_start' \
+    '? 0.0 * warm_start' \
+    conformance_tests '*PassConformance.SolvedPressure/Splash*'
+mutation "solve: it never ends" \
+    shaders/sim/dfsph_residual.comp \
+    'ends = last || (met && push.iteration > 0u)' \
+    'ends = last' \
+    conformance_tests '*PassConformance.SolvedPressure/Lattice*'
+mutation "solve: too strong a relaxation" \
+    engine/particles/sph_kernel.cpp \
+    'std::min(0.5, relaxation / largest' \
+    'std::min(0.5, 3.0 * relaxation / largest' \
+    physics_short_tests 'Incompressible.DamBreak*'
+mutation "solve: warm starts stay behind in the sort" \
+    shaders/sim/reorder_warm_start.comp \
+    'warm_start[order[slot]]' \
+    'warm_start[slot]' \
+    conformance_tests 'Steps.StepsWithSolvedPressureAreTheTwins'
+mutation "drift: no contact with walls" \
+    shaders/sim/drift.comp \
+    'vec3 v = with_contact(position[i].xyz, velocity[i].xyz)' \
+    'vec3 v = velocity[i].xyz' \
+    conformance_tests '*PassConformance.SolvedPressure/InTheCorners*'
+mutation "time step: the fastest of the last step only" \
+    shaders/sim/fastest.comp \
+    'max(dot(v, v), dot(later, later))' \
+    'dot(v, v)' \
+    conformance_tests 'TimeControl.StepsAreTheTwins'
+mutation "time step: it grows at once" \
+    shaders/sim/time_step.comp \
+    'step.limit * TIME_STEP_GROWTH' \
+    '10.0 * step.limit' \
+    conformance_tests 'TimeControl.StepsAreTheTwins'
+mutation "barriers: reads see what the same dispatch writes" \
+    engine/gpu/commands.cpp \
+    '        if (binding.access == Access::Read) {' \
+    '        if (binding.access != Access::Read) {
+            use(*binding.buffer, VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT, access, true);
+        } else {' \
+    conformance_tests 'Steps.FreeFallIsExact'
 
 # --- a host's device ----------------------------------------------------------------------------------------------------
 

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "gpu/transfer.h"
+#include "reference/state.h"
 #include "sim/simulation.h"
 #include "sim/wcsph.h"
 
@@ -15,6 +16,7 @@ struct Device {
     sim::NeighborGrid grid;
     gpu::Buffer params_buffer;
     gpu::Buffer status;
+    sim::TimeControl time;
     gpu::Commands commands;
 
     Device(const gpu::Context& device_context, const ParticleSet& set, const sim::SimulationSettings& settings)
@@ -22,12 +24,14 @@ struct Device {
           kernels(context, settings.options), particles(make_particle_buffers(context, params.particle_count)),
           grid(context, params.particle_count, params.grid_size),
           params_buffer(gpu::make_buffer<shared::SphParams>(context, 1, "params")),
-          status(gpu::make_buffer<shared::Status>(context, 1, "status")), commands(context)
+          status(gpu::make_buffer<shared::Status>(context, 1, "status")), time(context, params), commands(context)
     {
         upload(context, set, particles);
         gpu::upload<shared::SphParams>(context, params_buffer, {&params, 1});
         run([&] { commands.fill(status, shared::NO_STEP); });
     }
+
+    [[nodiscard]] sim::Fluid fluid() { return {kernels, params_buffer, particles, grid, status, time}; }
 
     template <class Record>
     void run(const Record& record)
@@ -38,5 +42,12 @@ struct Device {
         commands.wait();
     }
 };
+
+/// What the twins of the passes read besides the particles.
+[[nodiscard]] inline reference::Settings reference_settings(const shared::SphParams& params,
+                                                            const sim::SimulationSettings& settings)
+{
+    return {.kernel = settings.options.kernel, .params = params, .solver = settings.options.solver};
+}
 
 } // namespace meltpoint::conformance

@@ -6,10 +6,13 @@
 #include <fmt/format.h>
 
 #include "conformance/device.h"
+#include "conformance/dfsph_comparison.h"
+#include "conformance/relative_error.h"
 #include "gpu/transfer.h"
 #include "reference/boundary.h"
 #include "reference/cells.h"
 #include "reference/density.h"
+#include "reference/dfsph.h"
 #include "reference/forces.h"
 #include "reference/integrate.h"
 #include "reference/measure.h"
@@ -23,33 +26,6 @@ namespace meltpoint::conformance {
 namespace {
 
 constexpr double rounding_zone = 1e-6;
-
-/// L2(difference) / L2(scale) over all particles.
-class RelativeError {
-public:
-    void add(double difference, double scale)
-    {
-        difference2_ += difference * difference;
-        scale2_ += scale * scale;
-    }
-    void add(const glm::vec3& gpu, const glm::dvec3& reference, double scale)
-    {
-        add(glm::length(glm::dvec3(gpu) - reference), scale);
-    }
-    [[nodiscard]] double value() const
-    {
-        return difference2_ == 0.0 ? 0.0 : std::sqrt(difference2_) / std::sqrt(scale2_);
-    }
-
-private:
-    double difference2_ = 0.0;
-    double scale2_ = 0.0;
-};
-
-reference::Settings reference_settings(const Device& device, const sim::SimulationSettings& settings)
-{
-    return {.kernel = settings.options.kernel, .params = device.params};
-}
 
 // --- the passes ---
 
@@ -249,7 +225,7 @@ std::vector<PassError> compare_passes(const gpu::Context& context, const Particl
                                       const sim::SimulationSettings& settings)
 {
     Device device(context, particles, settings);
-    const reference::Settings twin_settings = reference_settings(device, settings);
+    const reference::Settings twin_settings = reference_settings(device.params, settings);
 
     std::vector<PassError> errors = compare_kick_drift(device, twin_settings);
     errors.push_back(compare_sort(device));
@@ -260,6 +236,11 @@ std::vector<PassError> compare_passes(const gpu::Context& context, const Particl
     for (PassError& error : compare_density(device, twin_settings, twin, neighbors)) {
         errors.push_back(std::move(error));
     }
+    if (settings.options.solver == shared::SOLVER_DFSPH) {
+        for (PassError& error : compare_dfsph_passes(device, settings.options, twin_settings, twin, neighbors)) {
+            errors.push_back(std::move(error));
+        }
+    }
     errors.push_back(compare_forces(device, twin_settings, neighbors));
     errors.push_back(compare_kick(device));
     return errors;
@@ -269,14 +250,22 @@ std::vector<PassError> compare_steps(const gpu::Context& context, const Particle
                                      const sim::SimulationSettings& settings, std::uint32_t steps)
 {
     sim::Simulation simulation(context, particles, settings);
-    const reference::Settings twin_settings{.kernel = settings.options.kernel, .params = simulation.params()};
+    const reference::Settings twin_settings = reference_settings(simulation.params(), settings);
     reference::State twin = reference::from_particle_set(particles);
     reference::evaluate(twin_settings, twin);
+    reference::WarmStarts warm_starts;
+    const auto twin_step = [&] {
+        if (settings.options.solver == shared::SOLVER_DFSPH) {
+            (void)reference::dfsph_step(twin_settings, twin, warm_starts);
+        } else {
+            reference::step(twin_settings, twin);
+        }
+    };
     const double start_energy = reference::kinetic_energy(twin) + reference::potential_energy(twin_settings, twin);
 
     simulation.advance(steps);
     for (std::uint32_t i = 0; i < steps; ++i) {
-        reference::step(twin_settings, twin);
+        twin_step();
     }
     const reference::State gpu = reference::from_particle_set(simulation.download());
 

@@ -93,7 +93,7 @@ void measure_particles(const gpu::Context& context, const Scene& scene, const Pa
         log_warning(warning);
     }
     log_info(fmt::format("{}: {} particles, {} steps of warm-up", scene.name, particles.size(), plan.warm_up));
-    for (bench::Result& result : bench::measure(context, particles, settings.simulation, plan)) {
+    for (bench::Result& result : bench::measure(context, particles, with_fixed_steps(settings.simulation), plan)) {
         results.push_back(std::move(result));
     }
 }

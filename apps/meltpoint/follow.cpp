@@ -228,6 +228,9 @@ void follow_to_pixel(const gpu::Context& context, const Scene& scene, const sim:
 int follow(const FollowOptions& options)
 {
     const Scene scene = load_scene(options.scene);
+    if (scene.solver != Solver::Wcsph) {
+        throw input_error("{}: follow knows the passes of solver \"wcsph\" alone (--set solver=wcsph)", scene.name);
+    }
     const gpu::Context context(context_options(options.scene));
     const ParticleSet initial = make_particles(scene, sim::Simulation::particle_limit(context));
     if (initial.size() == 0) {
@@ -236,12 +239,12 @@ int follow(const FollowOptions& options)
     if (options.particle >= initial.size()) {
         throw input_error("--particle {}: {} has particles 0 to {}", options.particle, scene.name, initial.size() - 1);
     }
-    const FluidSettings settings = fluid_settings(scene, initial);
+    const sim::SimulationSettings settings = with_fixed_steps(fluid_settings(scene, initial).simulation);
     print_start(scene, initial, options.particle);
 
-    sim::Simulation simulation(context, initial, settings.simulation);
+    sim::Simulation simulation(context, initial, settings);
     simulation.advance(options.steps - 1);
-    conformance::Device device(context, simulation.download(), settings.simulation);
+    conformance::Device device(context, simulation.download(), settings);
     fmt::print("\nstep {}, to {:.6g} s\n", options.steps, static_cast<double>(options.steps) * device.params.dt);
     const ParticleSet after = follow_step(device, options.particle, options.steps);
     simulation.advance(1);

@@ -66,7 +66,7 @@ std::string make_conformance(const Workplace& workplace)
     constexpr std::uint32_t steps = 10;
     const Scene scene = builtin_scene("teapot_floor"); // it has fluid, walls and a collider
     const ParticleSet particles = make_particles(scene, sim::Simulation::particle_limit(workplace.context));
-    const sim::SimulationSettings settings = fluid_settings(scene, particles).simulation;
+    const sim::SimulationSettings settings = with_fixed_steps(fluid_settings(scene, particles).simulation);
     log_info(fmt::format("{}: {} particles against the CPU reference", scene.name, particles.size()));
     sim::Simulation simulation(workplace.context, particles, settings);
     simulation.advance(steps);

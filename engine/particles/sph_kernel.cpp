@@ -4,8 +4,11 @@
 // (Wendland C2).
 #include "particles/sph_kernel.h"
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
+
+#include <glm/glm.hpp>
 
 #include "core/error.h"
 
@@ -14,7 +17,7 @@ namespace {
 
 constexpr double PI = std::numbers::pi;
 
-// Calls body(x in spacings, distance in spacings) for each site of the cubic lattice
+// Calls body(place in spacings, distance in spacings) for each site of the cubic lattice
 // nearer than the support radius, the origin included.
 template <class Body>
 void for_each_lattice_site(double support_ratio, const Body& body)
@@ -25,7 +28,7 @@ void for_each_lattice_site(double support_ratio, const Body& body)
             for (int z = -reach; z <= reach; ++z) {
                 const double r = std::sqrt(static_cast<double>(x * x + y * y + z * z));
                 if (r < support_ratio) {
-                    body(x, r);
+                    body(glm::dvec3(x, y, z), r);
                 }
             }
         }
@@ -126,18 +129,41 @@ LatticeMoments lattice_moments(std::uint32_t kernel, double support_radius, doub
     const double ratio = checked_support_ratio(support_radius, spacing);
     const KernelScales scale = continuum_scales(kernel, ratio); // in units of the spacing: d = 1
     LatticeMoments moments{};
-    for_each_lattice_site(ratio, [&](int x, double r) {
+    for_each_lattice_site(ratio, [&](const glm::dvec3& site, double r) {
         const double q = r / ratio;
-        const double xx = static_cast<double>(x * x);
+        const double xx = site.x * site.x;
         moments.density += scale.density * density_shape(kernel, q);
         moments.viscosity += 0.5 * xx * scale.viscosity * viscosity_shape(kernel, q);
         moments.color_laplacian -= 0.5 * xx * scale.color_laplacian * color_laplacian_shape(kernel, q);
-        if (x != 0) {
+        if (site.x != 0.0) {
             moments.gradient += xx / r * scale.gradient * gradient_shape(kernel, q);
             moments.color_gradient += xx / r * scale.color_gradient * color_gradient_shape(kernel, q);
         }
     });
     return moments;
+}
+
+double largest_jacobi_eigenvalue(std::uint32_t kernel, double support_radius, double spacing)
+{
+    const double ratio = checked_support_ratio(support_radius, spacing);
+    constexpr double finest = 0.02; // of the wave numbers, over 1/d
+    double largest = 0.0;
+    for (const glm::dvec3& direction : {glm::dvec3(1, 0, 0), glm::dvec3(1, 1, 0), glm::dvec3(1, 1, 1)}) {
+        const glm::dvec3 u = glm::normalize(direction);
+        for (double k = finest; k < PI * glm::length(direction); k += finest) {
+            glm::dvec3 sum(0.0);
+            double squares = 0.0;
+            for_each_lattice_site(ratio, [&](const glm::dvec3& x, double r) {
+                if (r > 0.0) {
+                    const glm::dvec3 g = gradient_shape(kernel, r / ratio) / r * x;
+                    sum += std::sin(k * glm::dot(x, u)) * g;
+                    squares += glm::dot(g, g);
+                }
+            });
+            largest = std::max(largest, glm::dot(sum, sum) / squares);
+        }
+    }
+    return largest;
 }
 
 double wall_viscosity_integral(std::uint32_t kernel, double distance, double support_radius)
@@ -168,6 +194,11 @@ void set_kernel_scales(shared::SphParams& params, std::uint32_t kernel, double s
     params.viscosity_scale = static_cast<float>(scale.viscosity / moments.viscosity);
     params.color_gradient_scale = static_cast<float>(scale.color_gradient / moments.color_gradient);
     params.color_laplacian_scale = static_cast<float>(scale.color_laplacian / moments.color_laplacian);
+
+    // Below 2 over the eigenvalue, and with something left for particles that lie less evenly.
+    constexpr double relaxation = 1.3;
+    params.solve_relaxation =
+        static_cast<float>(std::min(0.5, relaxation / largest_jacobi_eigenvalue(kernel, support_radius, spacing)));
 
     params.spacing = static_cast<float>(spacing);
     const double rate = static_cast<double>(params.speed_of_sound) / spacing; // sound crosses a spacing in 1/rate

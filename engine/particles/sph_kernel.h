@@ -52,6 +52,12 @@ struct LatticeMoments {
 /// support_radius and spacing in meters. Throws Error{Input} unless MIN_SUPPORT_RATIO <= H/d <= MAX_SUPPORT_RATIO.
 [[nodiscard]] LatticeMoments lattice_moments(std::uint32_t kernel, double support_radius, double spacing);
 
+/// The largest eigenvalue of the pressure solves' Jacobi matrix on that lattice, where it is about 3 at H = 2 d and 6
+/// at 3 d: plane waves of pressure are its eigenvectors, with the eigenvalues |sum_j g_j sin(k . x_j)|^2 / sum_j
+/// |g_j|^2, g_j the kernel gradients. Jacobi iterations converge when relaxed by less than 2 over it. Throws as
+/// lattice_moments.
+[[nodiscard]] double largest_jacobi_eigenvalue(std::uint32_t kernel, double support_radius, double spacing);
+
 inline constexpr double MIN_SUPPORT_RATIO = 1.2; ///< below, a lattice has hardly any neighbors left
 inline constexpr double MAX_SUPPORT_RATIO = 8.0; ///< above, a particle has more than 2100 neighbors
 
@@ -60,8 +66,8 @@ inline constexpr double MAX_SUPPORT_RATIO = 8.0; ///< above, a particle has more
 [[nodiscard]] double wall_viscosity_integral(std::uint32_t kernel, double distance, double support_radius);
 
 /// Fills the spacing (m) and what follows from it, kernel, support radius and speed of sound: the five kernel scales
-/// divided by their lattice moments, and the contact spring. params.support_radius and params.speed_of_sound
-/// must be set. Throws as lattice_moments does.
+/// divided by their lattice moments, the relaxation of pressure solves, and the contact spring. params.support_radius
+/// and params.speed_of_sound must be set. Throws as lattice_moments does.
 void set_kernel_scales(shared::SphParams& params, std::uint32_t kernel, double spacing);
 
 } // namespace meltpoint

@@ -44,7 +44,9 @@ void update_density(const Settings& settings, State& state, const Neighbors& nei
             return;
         }
         state.density[i] = density(settings, state, neighbors, i);
-        state.pressure[i] = pressure(settings.params, state.density[i], rest_density(settings, state, i));
+        if (settings.solver == shared::SOLVER_WCSPH) {
+            state.pressure[i] = pressure(settings.params, state.density[i], rest_density(settings, state, i));
+        }
     });
 }
 

@@ -15,7 +15,8 @@ namespace meltpoint::reference {
 /// params.clamp_pressure.
 [[nodiscard]] double pressure(const shared::SphParams& params, double density, double rest_density);
 
-/// Sets density and pressure of every particle; both are 0 for boundary particles.
+/// Sets density and pressure of every particle, but not a pressure that is solved for; both are 0 for boundary
+/// particles.
 void update_density(const Settings& settings, State& state, const Neighbors& neighbors);
 
 } // namespace meltpoint::reference

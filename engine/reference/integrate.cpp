@@ -1,7 +1,10 @@
 // Velocity Verlet, kick-drift-kick (Swope, Andersen, Berens & Wilson 1982).
 #include "reference/integrate.h"
 
+#include <algorithm>
+
 #include "core/parallel_for.h"
+#include "reference/walls.h"
 
 namespace meltpoint::reference {
 namespace {
@@ -34,6 +37,21 @@ std::uint32_t fault_of(const shared::SphParams& params, const glm::dvec3& positi
 void kick(State& state, double t)
 {
     parallel_for(state.size(), [&](std::size_t i) { state.velocity[i] += state.acceleration[i] * t; });
+}
+
+void hold_off_walls(const Settings& settings, State& state)
+{
+    const double reach = static_cast<double>(settings.params.contact_distance);
+    const double dt = static_cast<double>(settings.params.dt);
+    parallel_for(state.size(), [&](std::size_t i) {
+        if (is_boundary(state, i)) {
+            return;
+        }
+        for_each_wall(settings.params, state.position[i], [&](double distance, const glm::dvec3& normal) {
+            const double slowest = std::min((reach - distance) / dt, 0.0);
+            state.velocity[i] += std::max(slowest - glm::dot(state.velocity[i], normal), 0.0) * normal;
+        });
+    });
 }
 
 void drift(const Settings& settings, State& state)

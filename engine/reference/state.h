@@ -17,6 +17,7 @@ namespace meltpoint::reference {
 struct Settings {
     std::uint32_t kernel = shared::KERNEL_PAPER;
     shared::SphParams params{};
+    std::uint32_t solver = shared::SOLVER_WCSPH;
 };
 
 /// What a run has noticed: its first fault, and the pairs without direction of the last force evaluation.

@@ -14,7 +14,8 @@ namespace meltpoint {
 
 namespace {
 
-constexpr double sound_per_speed = 10.0; // density error about 1 %
+constexpr double longest_solved_step = 5e-3; // s: longer ones show, however slow the fluid is
+constexpr double sound_per_speed = 10.0;     // density error about 1 %
 
 double support_radius(const Scene& scene)
 {
@@ -83,12 +84,6 @@ void warn_of_coarse_positions(const Scene& scene, std::vector<std::string>& warn
     }
 }
 
-float frame_steps_dt(double bound, double frame_rate)
-{
-    const double steps = std::ceil(1.0 / (frame_rate * bound));
-    return static_cast<float>(1.0 / (frame_rate * std::max(steps, 1.0)));
-}
-
 /// The device counts steps in 32 bits, of which one value means "none".
 void check_step_count(const Scene& scene, double dt)
 {
@@ -127,9 +122,18 @@ TimeStepBounds time_step_bounds(const Scene& scene, double speed_of_sound, doubl
         lightest = std::min(lightest, static_cast<double>(body.rest_density));
     }
     const double viscosity = largest_viscosity(scene);
-    return {.cfl = 0.4 * 0.5 * support / (speed_of_sound + speed),
+    const double spacing = static_cast<double>(scene.particles.spacing);
+    const double cfl = scene.solver == Solver::Wcsph ? 0.4 * 0.5 * support / (speed_of_sound + speed)
+                                                     : std::min(0.4 * spacing / speed, longest_solved_step);
+    return {.cfl = cfl,
             .viscosity = viscosity > 0.0 ? 0.06 * lightest * support * support / viscosity
                                          : std::numeric_limits<double>::infinity()};
+}
+
+sim::SimulationSettings with_fixed_steps(sim::SimulationSettings settings)
+{
+    settings.params.adaptive_dt = 0;
+    return settings;
 }
 
 FluidSettings fluid_settings(const Scene& scene, const ParticleSet& particles)
@@ -153,6 +157,9 @@ FluidSettings fluid_settings(const Scene& scene, const ParticleSet& particles)
     params.wall_viscosity = scene.domain.wall_viscosity;
     params.surface_tension = scene.physics.surface_tension;
     params.tension_threshold = scene.physics.tension_threshold;
+    params.density_error = scene.solve.density_error;
+    params.divergence_error = scene.solve.divergence_error;
+    params.max_iterations = scene.solve.max_iterations;
     const SceneMaterials materials = scene_materials(scene);
     for (std::size_t i = 0; i < materials.materials.size(); ++i) {
         params.rest_density[i] = materials.materials[i].rest_density;
@@ -161,7 +168,13 @@ FluidSettings fluid_settings(const Scene& scene, const ParticleSet& particles)
 
     const double frame_rate = static_cast<double>(scene.time.frame_rate);
     const TimeStepBounds bounds = time_step_bounds(scene, static_cast<double>(params.speed_of_sound), speed);
-    params.dt = scene.time.dt.value_or(frame_steps_dt(bounds.smallest(), frame_rate));
+    params.adaptive_dt = scene.time.dt ? 0 : 1;
+    params.dt = scene.time.dt.value_or(static_cast<float>(std::min(bounds.smallest(), 1.0 / frame_rate)));
+    const bool solved = scene.solver != Solver::Wcsph;
+    params.cfl_length = solved ? 0.4f * scene.particles.spacing : 0.4f * 0.5f * params.support_radius;
+    params.cfl_speed = solved ? 0.0f : params.speed_of_sound;
+    params.longest_dt = static_cast<float>(
+        std::min({bounds.viscosity, 1.0 / frame_rate, solved ? longest_solved_step : bounds.viscosity}));
     const double dt = static_cast<double>(params.dt);
     if (dt * frame_rate > 1.0 + 1e-6) {
         throw input_error("{}: time.dt is {:.6g} s, longer than a frame of {:.6g} s (time.frame_rate {:.6g})",
@@ -192,9 +205,11 @@ FluidSettings fluid_settings(const Scene& scene, const ParticleSet& particles)
                         scene.physics.viscosity, calming));
     }
     // The CFL bound of the particles' own speed; the sound's is for the warning above.
-    params.speed_limit = 0.4f * 0.5f * params.support_radius / params.dt;
+    params.longest_move = (solved ? 0.5f : 0.4f * 0.5f) * params.support_radius;
+    params.speed_limit = params.longest_move / params.dt;
 
     sim::FluidOptions& options = settings.simulation.options;
+    options.solver = scene.solver == Solver::Dfsph ? shared::SOLVER_DFSPH : shared::SOLVER_WCSPH;
     options.kernel = scene.kernel == SphKernel::Wendland ? shared::KERNEL_WENDLAND : shared::KERNEL_PAPER;
     options.tension = scene.physics.surface_tension > 0.0f;
     set_kernel_scales(params, options.kernel, static_cast<double>(scene.particles.spacing));

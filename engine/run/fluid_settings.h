@@ -29,9 +29,13 @@ struct FluidSettings {
         warnings; ///< sentences: a dt above its bounds, a viscosity too low for the paper's kernels
 };
 
+/// The same with every step params.dt long: for those who compare, or time, step by step.
+[[nodiscard]] sim::SimulationSettings with_fixed_steps(sim::SimulationSettings settings);
+
 /// What the passes need of a scene: automatic speed of sound and dt resolved, kernel scales computed. An automatic dt
-/// is the largest within the bounds that divides a frame. Throws Input when dt is longer than a frame or so short that
-/// the run's steps cannot be counted, and when walls stand closer than two support radii.
+/// is left to the device, with its bounds; params.dt is then what the bounds allow at the expected speed. Throws Input
+/// when dt is longer than a frame or so short that the run's steps cannot be counted, and when walls stand closer than
+/// two support radii.
 [[nodiscard]] FluidSettings fluid_settings(const Scene& scene, const ParticleSet& particles);
 
 } // namespace meltpoint

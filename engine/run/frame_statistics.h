@@ -18,7 +18,7 @@ struct FrameStatistics {
     std::uint32_t frame = 0;
     double time = 0.0;       ///< s
     std::uint64_t steps = 0; ///< since the start of the run
-    double dt = 0.0;         ///< s
+    double dt = 0.0;         ///< s, mean of the steps since the frame before
     std::uint64_t solid = 0;
     std::uint64_t fluid = 0;
     std::uint64_t dust = 0;
@@ -42,6 +42,8 @@ struct FrameStatistics {
     std::optional<double> neighbors_mean;
     double simulate_ms = 0.0; ///< wall time since the frame before
     double draw_ms = 0.0;
+    std::optional<double> iterations_density;    ///< of a step's density solve, mean since the frame before
+    std::optional<double> iterations_divergence; ///< likewise
 };
 
 /// Everything but frame, time, steps, dt, neighbors and wall times.

@@ -213,6 +213,13 @@ private:
 };
 
 /// Warns of particles that lie on top of each other, once.
+std::string describe_steps(const Scene& scene, const shared::SphParams& params)
+{
+    const std::string dt = params.adaptive_dt != 0 ? fmt::format("dt at most {:.4g} s", params.longest_dt)
+                                                   : fmt::format("dt {:.4g} s", params.dt);
+    return scene.solver == Solver::Wcsph ? fmt::format("{}, speed of sound {:.4g} m/s", dt, params.speed_of_sound) : dt;
+}
+
 double mean_neighbors(sim::Simulation& simulation, std::uint32_t frame, bool& warned_of_coincident)
 {
     const sim::NeighborStatistics neighbors = simulation.neighbor_statistics();
@@ -223,6 +230,23 @@ double mean_neighbors(sim::Simulation& simulation, std::uint32_t frame, bool& wa
         warned_of_coincident = true;
     }
     return neighbors.mean;
+}
+
+/// Warns once of solves that ended before they met their error.
+void warn_of_unmet_errors(const Scene& scene,
+                          const std::array<sim::Simulation::SolveStatistics, shared::SOLVES>& solves,
+                          std::uint32_t frame, bool& warned)
+{
+    for (std::size_t i = 0; i < solves.size() && !warned; ++i) {
+        if (solves[i].unconverged > 0) {
+            log_warning(fmt::format("frame {}: {} {} solves ended at {} iterations with errors of up to {:.3g} "
+                                    "(solve.max_iterations, solve.{}_error)",
+                                    frame, solves[i].unconverged, i == shared::SOLVE_DENSITY ? "density" : "divergence",
+                                    scene.solve.max_iterations, solves[i].worst_error,
+                                    i == shared::SOLVE_DENSITY ? "density" : "divergence"));
+            warned = true;
+        }
+    }
 }
 
 } // namespace
@@ -250,10 +274,9 @@ RunSummary run_scene(const gpu::Context& context, const Scene& scene, const RunO
     if (!options.stats.empty()) {
         statistics_file.emplace(options.stats);
     }
-    const double dt = static_cast<double>(params.dt);
     if (!options.quiet) {
-        log_info(fmt::format("{}: {} particles, dt {:.4g} s, speed of sound {:.4g} m/s, on {}", scene.name,
-                             particle_count, dt, params.speed_of_sound, context.info().name));
+        log_info(fmt::format("{}: {} particles, {}, on {}", scene.name, particle_count, describe_steps(scene, params),
+                             context.info().name));
     }
 
     const auto stopped = [&] {
@@ -264,21 +287,28 @@ RunSummary run_scene(const gpu::Context& context, const Scene& scene, const RunO
     }
     RunSummary summary{.particles = particle_count};
     bool warned_of_coincident = false;
+    bool warned_of_solves = false;
+    double previous_frame_time = 0.0;
     Progress progress("frames", scene.time.frames, options.quiet);
     for (std::uint32_t frame = 0; frame < scene.time.frames; ++frame) {
         if (stopped()) {
             summary.stopped = true;
             break;
         }
-        // Frame times are exact multiples where dt divides a frame, else within half a step.
         const double frame_time = frame / static_cast<double>(scene.time.frame_rate);
-        const auto target = static_cast<std::uint64_t>(std::llround(frame_time / dt));
+        const double time_before = summary.time;
+        const std::uint64_t steps_before = summary.steps;
         Clock::time_point clock = Clock::now();
         if (simulation) {
-            simulation->advance(static_cast<std::uint32_t>(target - summary.steps));
+            simulation->advance_by(frame_time - previous_frame_time);
+            summary.steps = simulation->step();
         }
-        summary.steps = target;
-        summary.time = static_cast<double>(target) * dt;
+        const auto solves = simulation ? simulation->take_solve_statistics() : std::nullopt;
+        if (solves) {
+            warn_of_unmet_errors(scene, *solves, frame, warned_of_solves);
+        }
+        summary.time = simulation ? simulation->time() : frame_time;
+        previous_frame_time = frame_time;
         const double simulate_ms = milliseconds_since(clock);
 
         clock = Clock::now();
@@ -298,9 +328,15 @@ RunSummary run_scene(const gpu::Context& context, const Scene& scene, const RunO
                 statistics.frame = frame;
                 statistics.time = summary.time;
                 statistics.steps = summary.steps;
-                statistics.dt = dt;
+                statistics.dt = summary.steps > steps_before
+                                    ? (summary.time - time_before) / static_cast<double>(summary.steps - steps_before)
+                                    : 0.0;
                 if (simulation) {
                     statistics.neighbors_mean = mean_neighbors(*simulation, frame, warned_of_coincident);
+                }
+                if (solves) {
+                    statistics.iterations_density = (*solves)[shared::SOLVE_DENSITY].mean_iterations;
+                    statistics.iterations_divergence = (*solves)[shared::SOLVE_DIVERGENCE].mean_iterations;
                 }
                 statistics.simulate_ms = simulate_ms;
                 statistics.draw_ms = draw_ms;

@@ -15,8 +15,8 @@ struct SurfaceSplats {
     std::vector<glm::vec4> color;           ///< linear RGB; w is 1
 };
 
-/// The splats of a scene's surfaces, in the order of the file. Throws Input for meshes and scans that cannot be read or have no
-/// area, and for more splats than `limit` (what the device holds).
+/// The splats of a scene's surfaces, in the order of the file. Throws Input for meshes and scans that cannot be read or
+/// have no area, and for more splats than `limit` (what the device holds).
 [[nodiscard]] SurfaceSplats make_surface_splats(const Scene& scene, std::uint64_t limit);
 
 } // namespace meltpoint

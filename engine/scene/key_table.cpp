@@ -230,7 +230,8 @@ std::vector<SceneKey> make_scene_keys()
     return {
         k("name", FIELD(name), "", Range{1, 200}, "what to call the scene and the folder of its frames; left out, a file goes by its own name"),
         k("description", FIELD(description), "", Range{0, 10000}, "what it shows"),
-        choice<Scene>("solver", FIELD(solver), {{"wcsph", Solver::Wcsph}}, "weakly compressible SPH"),
+        choice<Scene>("solver", FIELD(solver), {{"wcsph", Solver::Wcsph}, {"dfsph", Solver::Dfsph}},
+                      "wcsph: weakly compressible SPH, pressure from density by a state equation, small steps; dfsph: divergence-free SPH (Bender & Koschier 2015), pressure solved for, large steps"),
         choice<Scene>("kernel", FIELD(kernel), {{"paper", SphKernel::Paper}, {"wendland", SphKernel::Wendland}},
                       "wendland: C2 for all, for pictures at particles.support_ratio = 2, for truth at 3; paper: poly6, spiky and viscosity kernels (Mueller et al. 2003), which need more viscosity to stay calm"),
         k("seed", FIELD(seed), "", Range{0, 1e18},
@@ -254,6 +255,10 @@ std::vector<SceneKey> make_scene_keys()
         k("physics.gamma", FIELD(physics.gamma), "", Range{1, 20}, "exponent of the Tait equation"),
         k("physics.background_pressure", FIELD(physics.background_pressure), "Pa", Range{0, 1e9}, "added to every pressure"),
         flag<Scene>("physics.clamp_pressure", FIELD(physics.clamp_pressure), "no pressure below zero, which would clump particles at a free surface"),
+
+        k("solve.density_error", FIELD(solve.density_error), "", Range{1e-6, 0.1}, "dfsph: mean of rho/rho0 - 1, where positive, at which a step's density solve ends"),
+        k("solve.divergence_error", FIELD(solve.divergence_error), "", Range{1e-6, 0.1}, "dfsph: mean relative growth of density in a step, where positive, at which its divergence solve ends"),
+        k("solve.max_iterations", FIELD(solve.max_iterations), "", Range{1, 1000}, "of a solve; ending there without having met the error is reported"),
 
         k("time.dt", FIELD(time.dt), "s", Range{1e-9, 1}, "step; auto: the largest within the bounds of stability"),
         k("time.frame_rate", FIELD(time.frame_rate), "1/s", Range{1e-2, 1e6}, "frames in a second of simulated time"),

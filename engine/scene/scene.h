@@ -15,7 +15,7 @@ namespace meltpoint {
 
 enum class SphKernel { Paper, Wendland };
 enum class StateEquation { Linear, Tait };
-enum class Solver { Wcsph };
+enum class Solver { Wcsph, Dfsph };
 
 /// The box that the particles stay in.
 struct DomainSettings {
@@ -42,6 +42,13 @@ struct FluidPhysics {
     float gamma = 7.0f;                  ///< Tait exponent
     float background_pressure = 0.0f;    ///< Pa
     bool clamp_pressure = true;
+};
+
+/// When the solves of incompressible fluids end.
+struct SolveSettings {
+    float density_error = 5e-4f;    ///< mean of max(rho/rho0 - 1, 0)
+    float divergence_error = 1e-3f; ///< mean of max(dt drho/dt / rho0, 0), a step
+    std::uint32_t max_iterations = 60; ///< of each solve of a step
 };
 
 /// How long a run is, and in what steps.
@@ -144,6 +151,7 @@ struct Scene {
     DomainSettings domain;
     ParticleSettings particles;
     FluidPhysics physics;
+    SolveSettings solve;
     TimeSettings time;
     std::vector<FluidBody> fluids;
     std::vector<ColliderBody> colliders;

@@ -27,13 +27,18 @@ std::uint32_t checked_tile(const gpu::DeviceInfo& device, std::uint32_t tile)
     return tile == 0 ? default_tile(device) : tile;
 }
 
-std::array<gpu::SpecConstant, 4> constants(std::uint32_t tile, const FluidOptions& options)
+} // namespace
+
+std::array<gpu::SpecConstant, 5> fluid_constants(const gpu::DeviceInfo& device, const FluidOptions& options)
 {
     // constant_id in shaders/. Tiles are for devices that fetch texels fast.
-    return {{{0, options.kernel}, {1, tile}, {2, options.tension ? 1u : 0u}, {3, tile > 1 ? 1u : 0u}}};
+    const std::uint32_t tile = checked_tile(device, options.tile);
+    return {{{0, options.kernel},
+             {1, tile},
+             {2, options.tension ? 1u : 0u},
+             {3, tile > 1 ? 1u : 0u},
+             {4, options.solver != shared::SOLVER_WCSPH ? 1u : 0u}}};
 }
-
-} // namespace
 
 std::uint32_t default_tile(const gpu::DeviceInfo& device)
 {
@@ -42,14 +47,14 @@ std::uint32_t default_tile(const gpu::DeviceInfo& device)
 
 FluidKernels::FluidKernels(const gpu::Context& context, const FluidOptions& options)
     : tile(checked_tile(context.info(), options.tile)),
-      kick_drift(context, "kick_drift", sim_kick_drift_comp, constants(tile, options)),
-      kick(context, "kick", sim_kick_comp, constants(tile, options)),
-      cell_key(context, "cell_key", sim_cell_key_comp, constants(tile, options)),
-      reorder(context, "reorder", sim_reorder_comp, constants(tile, options)),
-      boundary_weight(context, "boundary_weight", sim_boundary_weight_comp, constants(tile, options)),
-      density(context, "density", sim_density_comp, constants(tile, options)),
-      forces(context, "forces", sim_forces_comp, constants(tile, options)),
-      count_neighbors(context, "count_neighbors", sim_count_neighbors_comp, constants(tile, options))
+      kick_drift(context, "kick_drift", sim_kick_drift_comp, fluid_constants(context.info(), options)),
+      kick(context, "kick", sim_kick_comp, fluid_constants(context.info(), options)),
+      cell_key(context, "cell_key", sim_cell_key_comp, fluid_constants(context.info(), options)),
+      reorder(context, "reorder", sim_reorder_comp, fluid_constants(context.info(), options)),
+      boundary_weight(context, "boundary_weight", sim_boundary_weight_comp, fluid_constants(context.info(), options)),
+      density(context, "density", sim_density_comp, fluid_constants(context.info(), options)),
+      forces(context, "forces", sim_forces_comp, fluid_constants(context.info(), options)),
+      count_neighbors(context, "count_neighbors", sim_count_neighbors_comp, fluid_constants(context.info(), options))
 {
 }
 

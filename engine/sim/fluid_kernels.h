@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <cstdint>
 
 #include "gpu/kernel.h"
@@ -9,10 +10,15 @@ namespace meltpoint::sim {
 
 /// What is compiled into the fluid's kernels as specialization constants.
 struct FluidOptions {
+    std::uint32_t solver = shared::SOLVER_WCSPH;
     std::uint32_t kernel = shared::KERNEL_PAPER;
     bool tension = false;
     std::uint32_t tile = 0; ///< particles an invocation, 1 to 16; 0 chooses for the device
 };
+
+/// Values of the specialization constants that shaders/ agree on. Throws Input when options.tile is out of range.
+[[nodiscard]] std::array<gpu::SpecConstant, 5> fluid_constants(const gpu::DeviceInfo& device,
+                                                               const FluidOptions& options);
 
 /// 4 on software devices, where loading a candidate costs more than using it; 1 on GPUs.
 [[nodiscard]] std::uint32_t default_tile(const gpu::DeviceInfo& device);

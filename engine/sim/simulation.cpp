@@ -1,6 +1,9 @@
 #include "sim/simulation.h"
 
 #include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <limits>
 #include <string_view>
 
 #include "core/error.h"
@@ -15,8 +18,6 @@ namespace {
 // Enough steps to hide the cost of a submission, few enough to keep it well under a second on a slow device.
 constexpr std::uint32_t max_steps_per_submission = 16;
 constexpr std::uint32_t particle_steps_per_submission = 1'000'000;
-
-constexpr std::uint32_t scopes_per_step = 8;
 
 /// Particles and the grid's copies of them, per particle, with the sort's keys, order and scratch.
 constexpr std::uint64_t bytes_per_particle = particle_buffer_bytes + 2 * sizeof(glm::vec4) + 8 * sizeof(std::uint32_t);
@@ -68,58 +69,91 @@ std::uint64_t Simulation::particle_limit(const gpu::DeviceInfo& device)
 
 Simulation::Simulation(const gpu::Context& context, const ParticleSet& particles, const SimulationSettings& settings)
     : context_(&context), params_(complete_params(settings.params, checked(context, particles).size())),
-      kernels_(context, settings.options), particles_(make_particle_buffers(context, params_.particle_count)),
+      kernels_(context, settings.options), solver_(make_solver(context, settings.options, params_)),
+      particles_(make_particle_buffers(context, params_.particle_count)),
       grid_(context, params_.particle_count, params_.grid_size),
       params_buffer_(gpu::make_buffer<shared::SphParams>(context, 1, "params")),
       status_(gpu::make_buffer<shared::Status>(context, 1, "status")),
-      status_readback_(context, sizeof(shared::Status), gpu::MemoryUse::Readback, "status readback"),
+      readback_(context, sizeof(Readback), gpu::MemoryUse::Readback, "readback"), time_(context, params_),
       commands_(std::make_unique<gpu::Commands>(context))
 {
     upload(context, particles, particles_);
     gpu::upload<shared::SphParams>(context, params_buffer_, {&params_, 1});
     commands_->begin();
     commands_->fill(status_, shared::NO_STEP);
-    record_sort(*commands_, kernels_, params_buffer_, particles_, grid_);
-    record_boundary_weight(*commands_, kernels_, params_buffer_, particles_, grid_);
-    record_density(*commands_, kernels_, params_buffer_, particles_, grid_);
-    record_forces(*commands_, kernels_, params_buffer_, particles_, grid_);
+    solver_->record_start(*commands_, fluid());
     commands_->submit();
     commands_->wait();
+}
+
+std::uint32_t Simulation::steps_a_submission() const
+{
+    return std::clamp(particle_steps_per_submission / params_.particle_count, 1u, max_steps_per_submission);
+}
+
+Simulation::Readback Simulation::submit_steps(std::uint32_t steps)
+{
+    for (std::uint32_t i = 0; i < steps; ++i) {
+        solver_->record_step(*commands_, fluid(), static_cast<std::uint32_t>(step_ + i));
+    }
+    commands_->copy(status_, readback_, sizeof(shared::Status), 0, offsetof(Readback, status));
+    commands_->copy(time_.state(), readback_, sizeof(shared::TimeStep), 0, offsetof(Readback, time));
+    commands_->submit();
+    commands_->wait();
+    const Readback seen = readback_.mapped<Readback>()[0];
+    check_status(seen.status);
+    step_ += steps;
+    return seen;
 }
 
 void Simulation::advance(std::uint32_t steps)
 {
     while (steps > 0) {
-        const std::uint32_t batch = std::min(
-            steps, std::clamp(particle_steps_per_submission / params_.particle_count, 1u, max_steps_per_submission));
+        const std::uint32_t batch = std::min(steps, steps_a_submission());
         commands_->begin();
-        for (std::uint32_t i = 0; i < batch; ++i) {
-            record_step(*commands_, kernels_, params_buffer_, particles_, grid_, status_,
-                        static_cast<std::uint32_t>(step_ + i));
-        }
-        commands_->copy(status_, status_readback_, sizeof(shared::Status));
-        commands_->submit();
-        commands_->wait();
-        check_status();
-        step_ += batch;
+        time_.set_remaining(*commands_, std::numeric_limits<float>::infinity());
+        const Readback seen = submit_steps(batch);
+        seconds_ += time_.adaptive() ? static_cast<double>(seen.time.elapsed) : batch * static_cast<double>(params_.dt);
         steps -= batch;
     }
+    wanted_seconds_ = seconds_;
 }
 
-void Simulation::check_status()
+void Simulation::advance_by(double seconds)
 {
-    const shared::Status status = status_readback_.mapped<shared::Status>()[0];
+    wanted_seconds_ += seconds;
+    if (!time_.adaptive()) {
+        const double dt = static_cast<double>(params_.dt);
+        const double wanted = wanted_seconds_;
+        advance(static_cast<std::uint32_t>(std::max(std::llround((wanted - seconds_) / dt), 0LL)));
+        wanted_seconds_ = wanted;
+        return;
+    }
+    shared::TimeStep state = gpu::download<shared::TimeStep>(*context_, time_.state(), 1)[0];
+    state.remaining = static_cast<float>(seconds);
+    for (bool first = true; state.remaining > 0.0f; first = false) {
+        commands_->begin();
+        if (first) {
+            time_.set_remaining(*commands_, state.remaining);
+        }
+        state = submit_steps(TimeControl::least_steps(state, params_.longest_dt, steps_a_submission())).time;
+    }
+    seconds_ = wanted_seconds_;
+}
+
+void Simulation::check_status(const shared::Status& status) const
+{
     if (status.first_faulty_step == shared::NO_STEP) {
         return;
     }
-    throw runtime_error("the simulation broke down in step {} ({:.6g} s) at particle {}: {}", status.first_faulty_step,
-                        static_cast<double>(status.first_faulty_step) * static_cast<double>(params_.dt),
-                        shared::offender_id(status.offender), describe_fault(shared::offender_fault(status.offender)));
+    throw runtime_error("the simulation broke down in step {} (after {:.6g} s) at particle {}: {}",
+                        status.first_faulty_step, seconds_, shared::offender_id(status.offender),
+                        describe_fault(shared::offender_fault(status.offender)));
 }
 
 std::uint64_t Simulation::device_bytes() const
 {
-    std::uint64_t sum = 0;
+    std::uint64_t sum = solver_->device_bytes();
     for (const gpu::Buffer* buffer : {&particles_.id,
                                       &particles_.attributes,
                                       &particles_.position,
@@ -175,9 +209,30 @@ NeighborStatistics Simulation::neighbor_statistics()
     return statistics;
 }
 
+std::optional<std::array<Simulation::SolveStatistics, shared::SOLVES>> Simulation::take_solve_statistics()
+{
+    if (solver_->solves() == nullptr) {
+        return std::nullopt;
+    }
+    const auto found = gpu::download<shared::Solve>(*context_, *solver_->solves(), shared::SOLVES);
+    commands_->begin();
+    commands_->fill(*solver_->solves(), 0);
+    commands_->submit();
+    commands_->wait();
+    const auto steps = static_cast<double>(std::max(step_ - solves_taken_at_, std::uint64_t{1}));
+    solves_taken_at_ = step_;
+    std::array<SolveStatistics, shared::SOLVES> statistics;
+    for (std::size_t i = 0; i < found.size(); ++i) {
+        statistics[i] = {.mean_iterations = found[i].total_iterations / steps,
+                         .worst_error = static_cast<double>(found[i].worst_error),
+                         .unconverged = found[i].unconverged};
+    }
+    return statistics;
+}
+
 void Simulation::enable_timings()
 {
-    commands_ = std::make_unique<gpu::Commands>(*context_, max_steps_per_submission * scopes_per_step);
+    commands_ = std::make_unique<gpu::Commands>(*context_, max_steps_per_submission * solver_->scopes());
 }
 
 } // namespace meltpoint::sim

@@ -1,7 +1,9 @@
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "gpu/commands.h"
@@ -10,6 +12,7 @@
 #include "shared/sph_params.h"
 #include "sim/fluid_kernels.h"
 #include "sim/neighbor_grid.h"
+#include "sim/solver.h"
 
 namespace meltpoint::sim {
 
@@ -39,6 +42,9 @@ public:
     /// Runs `steps` time steps, several a submission, and waits for them. Throws Runtime naming step, particle and
     /// reason when a particle is not finite, has left the domain or is faster than the speed limit.
     void advance(std::uint32_t steps);
+    /// Runs until `seconds` from now, and waits: with as many steps as it takes where the device chooses their length
+    /// (params.adaptive_dt), else to within half a step of the sum of all calls. Throws as advance does.
+    void advance_by(double seconds);
 
     /// The present state. advance() moves particles and swaps buffers: ask again after it.
     [[nodiscard]] const ParticleBuffers& particles() const { return particles_; }
@@ -47,7 +53,7 @@ public:
     /// Steps since the start.
     [[nodiscard]] std::uint64_t step() const { return step_; }
     /// s since the start.
-    [[nodiscard]] double time() const { return static_cast<double>(step_) * static_cast<double>(params_.dt); }
+    [[nodiscard]] double time() const { return seconds_; }
 
     /// Particles an invocation.
     [[nodiscard]] std::uint32_t tile() const { return kernels_.tile; }
@@ -58,6 +64,15 @@ public:
     [[nodiscard]] ParticleSet download() const;
     /// Counts neighbors on the device, and waits.
     [[nodiscard]] NeighborStatistics neighbor_statistics();
+
+    /// What the solves of one kind took since the last call, or the start.
+    struct SolveStatistics {
+        double mean_iterations = 0.0;  ///< a step
+        double worst_error = 0.0;      ///< that a solve ended with
+        std::uint32_t unconverged = 0; ///< solves that ended at the maximum of iterations
+    };
+    /// By shared::SOLVE_*; empty where nothing is solved for. Waits, and starts to count anew.
+    [[nodiscard]] std::optional<std::array<SolveStatistics, shared::SOLVES>> take_solve_statistics();
 
     /// Takes timestamps of every pass from now on (about 40 us each on software devices).
     void enable_timings();
@@ -73,18 +88,31 @@ public:
     }
 
 private:
-    void check_status();
+    /// What the host learns after every submission.
+    struct Readback {
+        shared::Status status;
+        shared::TimeStep time;
+    };
+    Readback submit_steps(std::uint32_t steps);
+    void check_status(const shared::Status& status) const;
+    [[nodiscard]] std::uint32_t steps_a_submission() const;
+    [[nodiscard]] Fluid fluid() { return {kernels_, params_buffer_, particles_, grid_, status_, time_}; }
 
     const gpu::Context* context_;
     shared::SphParams params_;
     FluidKernels kernels_;
+    std::unique_ptr<Solver> solver_;
     ParticleBuffers particles_;
     NeighborGrid grid_;
     gpu::Buffer params_buffer_;
     gpu::Buffer status_;
-    gpu::Buffer status_readback_;
+    gpu::Buffer readback_; ///< Readback
+    TimeControl time_;
     std::unique_ptr<gpu::Commands> commands_;
     std::uint64_t step_ = 0;
+    double seconds_ = 0.0;              ///< since the start
+    double wanted_seconds_ = 0.0;       ///< of all calls of advance_by
+    std::uint64_t solves_taken_at_ = 0; ///< step of the last take_solve_statistics
 };
 
 } // namespace meltpoint::sim

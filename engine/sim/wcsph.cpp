@@ -49,10 +49,10 @@ void record_forces(gpu::Commands& commands, const FluidKernels& kernels, const g
 }
 
 void record_kick(gpu::Commands& commands, const FluidKernels& kernels, const gpu::Buffer& params,
-                 const ParticleBuffers& particles)
+                 const ParticleBuffers& particles, float part)
 {
     const gpu::Scope scope(commands, "kick");
-    commands.dispatch(kernels.kick, particles.count, gpu::NoPush{},
+    commands.dispatch(kernels.kick, particles.count, part,
                       {read(params), read(particles.acceleration), read(particles.acceleration),
                        read_write(particles.velocity), read(particles.velocity)});
 }
@@ -66,20 +66,22 @@ void record_count_neighbors(gpu::Commands& commands, const FluidKernels& kernels
                        read(particles.id), write(counts)});
 }
 
-void record_evaluation(gpu::Commands& commands, const FluidKernels& kernels, const gpu::Buffer& params,
-                       ParticleBuffers& particles, NeighborGrid& grid)
+void Wcsph::record_start(gpu::Commands& commands, const Fluid& fluid)
 {
-    record_sort(commands, kernels, params, particles, grid);
-    record_density(commands, kernels, params, particles, grid);
-    record_forces(commands, kernels, params, particles, grid);
+    record_sort(commands, fluid.kernels, fluid.params, fluid.particles, fluid.grid);
+    record_boundary_weight(commands, fluid.kernels, fluid.params, fluid.particles, fluid.grid);
+    record_density(commands, fluid.kernels, fluid.params, fluid.particles, fluid.grid);
+    record_forces(commands, fluid.kernels, fluid.params, fluid.particles, fluid.grid);
 }
 
-void record_step(gpu::Commands& commands, const FluidKernels& kernels, const gpu::Buffer& params,
-                 ParticleBuffers& particles, NeighborGrid& grid, const gpu::Buffer& status, std::uint32_t step)
+void Wcsph::record_step(gpu::Commands& commands, const Fluid& fluid, std::uint32_t step)
 {
-    record_kick_drift(commands, kernels, params, particles, status, step);
-    record_evaluation(commands, kernels, params, particles, grid);
-    record_kick(commands, kernels, params, particles);
+    fluid.time.record(commands, fluid.params, fluid.particles);
+    record_kick_drift(commands, fluid.kernels, fluid.params, fluid.particles, fluid.status, step);
+    record_sort(commands, fluid.kernels, fluid.params, fluid.particles, fluid.grid);
+    record_density(commands, fluid.kernels, fluid.params, fluid.particles, fluid.grid);
+    record_forces(commands, fluid.kernels, fluid.params, fluid.particles, fluid.grid);
+    record_kick(commands, fluid.kernels, fluid.params, fluid.particles);
 }
 
 } // namespace meltpoint::sim

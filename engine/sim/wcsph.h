@@ -2,10 +2,7 @@
 
 #include <cstdint>
 
-#include "gpu/commands.h"
-#include "particle_buffers/particle_buffers.h"
-#include "sim/fluid_kernels.h"
-#include "sim/neighbor_grid.h"
+#include "sim/solver.h"
 
 namespace meltpoint::sim {
 
@@ -29,20 +26,21 @@ void record_density(gpu::Commands& commands, const FluidKernels& kernels, const 
 void record_forces(gpu::Commands& commands, const FluidKernels& kernels, const gpu::Buffer& params,
                    const ParticleBuffers& particles, const NeighborGrid& grid);
 
-/// v += a dt/2.
+/// v += a dt times `part`.
 void record_kick(gpu::Commands& commands, const FluidKernels& kernels, const gpu::Buffer& params,
-                 const ParticleBuffers& particles);
+                 const ParticleBuffers& particles, float part = 0.5f);
 
 /// For statistics and tests: `counts` gets a shared::NeighborCount for each particle.
 void record_count_neighbors(gpu::Commands& commands, const FluidKernels& kernels, const gpu::Buffer& params,
                             const ParticleBuffers& particles, const NeighborGrid& grid, const gpu::Buffer& counts);
 
-/// Sort, density, forces: what the first step needs to have behind it.
-void record_evaluation(gpu::Commands& commands, const FluidKernels& kernels, const gpu::Buffer& params,
-                       ParticleBuffers& particles, NeighborGrid& grid);
-
-/// One whole time step.
-void record_step(gpu::Commands& commands, const FluidKernels& kernels, const gpu::Buffer& params,
-                 ParticleBuffers& particles, NeighborGrid& grid, const gpu::Buffer& status, std::uint32_t step);
+/// Weakly compressible SPH: pressure from the density by a state equation, velocity Verlet.
+class Wcsph : public Solver {
+public:
+    void record_start(gpu::Commands& commands, const Fluid& fluid) override;
+    void record_step(gpu::Commands& commands, const Fluid& fluid, std::uint32_t step) override;
+    [[nodiscard]] std::uint32_t scopes() const override { return 8; }
+    [[nodiscard]] std::uint64_t device_bytes() const override { return 0; }
+};
 
 } // namespace meltpoint::sim

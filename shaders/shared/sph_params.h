@@ -1,5 +1,5 @@
 // Everything a simulation pass needs besides the particles themselves: one struct in one device buffer, written by the
-// host before the first step. SI units.
+// host before the first step (dt and speed_limit also by time_step.comp). SI units.
 //
 // Number density form (Solenthaler & Pajarola 2008): rho_i = m_i sum_j W_ij, so that fluids of different rest density may
 // touch. With equal masses it is the usual rho_i = sum_j m_j W_ij. The sums include i itself.
@@ -27,6 +27,9 @@ SHARED_CONSTANT uint KERNEL_WENDLAND = 1u; // Wendland C2 for all three
 SHARED_CONSTANT uint STATE_EQUATION_LINEAR = 0u; // p = c0^2 (rho - rho0) + p_background
 SHARED_CONSTANT uint STATE_EQUATION_TAIT = 1u;   // p = (c0^2 rho0 / gamma) ((rho/rho0)^gamma - 1) + p_background
 
+SHARED_CONSTANT uint SOLVER_WCSPH = 0u; // pressure from density by a state equation (Mueller et al. 2003; Monaghan 1994)
+SHARED_CONSTANT uint SOLVER_DFSPH = 1u; // pressure that keeps density and divergence (Bender & Koschier 2015)
+
 SHARED_CONSTANT uint MAX_MATERIALS = 64u;
 
 // Pairs closer than this fraction of the support radius have no direction: zero gradient, counted in NeighborCount.
@@ -37,14 +40,14 @@ SHARED_CONSTANT float COINCIDENT_RATIO = 1e-6f;
 SHARED_CONSTANT uint CELLS_PER_SUPPORT_X = 2u;
 
 // What the forces need of a particle's density and pressure is computed once, with them: `interaction`, a vec4 a particle of
-// x = p V^2 gradient_scale, y = V = m / rho (m^3), z = mu V viscosity_scale; w is free. Of a boundary particle x = 0,
-// y = V_b, and mu is the friction.
+// x = p V^2 gradient_scale, y = V = m / rho (m^3), z = mu V viscosity_scale. Of a boundary particle x = 0, y = V_b, and mu is
+// the friction. Where pressure is solved for, x holds dt p instead of p while a solve runs, and w the solve's diagonal.
 
 struct SphParams {
     vec3 domain_min;      // m
     float support_radius; // H, m: kernels vanish at r >= H
     vec3 domain_max;      // m
-    float dt;             // s
+    float dt;             // s; where adaptive_dt, of the present step
     vec3 gravity;         // m/s^2
     uint particle_count;
     uvec3 grid_size;      // cells along x, y, z; cell index = (z * grid_size.y + y) * grid_size.x + x
@@ -72,6 +75,19 @@ struct SphParams {
     float contact_distance;  // m
     float contact_stiffness; // 1/s^2
     float contact_damping;   // 1/s
+
+    // Where pressure is solved for: the mean relative error at which a solve ends, and the iterations that it has at most.
+    float density_error;
+    float divergence_error; // a time step
+    uint max_iterations;
+    float solve_relaxation; // of a Jacobi iteration: neighbors correct the same error, and together would overshoot
+
+    // Where the device chooses dt (time_step.comp): cfl_length / (cfl_speed + the fastest particle's speed).
+    uint adaptive_dt;
+    float cfl_length;   // m
+    float cfl_speed;    // m/s
+    float longest_dt;   // s
+    float longest_move; // m: speed_limit times dt
 
     float speed_limit; // m/s: faster particles are FAULT_TOO_FAST
     float spacing;     // d, m, of particles at rest

@@ -2,8 +2,10 @@
 #extension GL_EXT_control_flow_attributes : require
 #extension GL_GOOGLE_include_directive : require
 // Density and pressure: rho_i = m_i sum_j s_j W_ij over the particles and their images in the walls, s_j their weights
-// (Solenthaler & Pajarola 2008; Akinci et al. 2012), then the state equation; and what the forces need of both. Boundary
-// particles have neither. Twin: engine/reference/density.cpp.
+// (Solenthaler & Pajarola 2008; Akinci et al. 2012), then the state equation; and what the forces need of both. Where pressure
+// is solved for, there is no state equation but the diagonal of the solve (Bender & Koschier 2015, their factor alpha): with
+// g_ij = -grad W_ij, 1 / (|sum_j s_j g_ij|^2 / m_i + sum_j |g_ij|^2 / m_j), the latter over fluid. Boundary particles have
+// none of these. Twins: engine/reference/density.cpp, dfsph.cpp.
 #define CELL_START_BINDING 1
 #include "include/candidate.glsl"
 #include "include/invocation.glsl"
@@ -20,6 +22,8 @@ layout(set = 0, binding = 6) uniform textureBuffer velocity_texels;
 layout(set = 0, binding = 7, scalar) writeonly buffer Density { float density[]; };
 layout(set = 0, binding = 8, scalar) writeonly buffer Pressure { float pressure[]; };
 layout(set = 0, binding = 9, scalar) writeonly buffer Interaction { vec4 interaction[]; }; // of shared/sph_params.h
+
+layout(constant_id = 4) const bool SOLVED_PRESSURE = false;
 
 #include "include/boundary.glsl"
 #include "include/image_walk.glsl"
@@ -47,20 +51,39 @@ void main()
     float h = params.support_radius;
     KernelSize size = kernel_size(h);
     float sum[TILE];
+    vec3 gradient[TILE];         // sum_j s_j g_ij / gradient_scale
+    float gradient_squares[TILE]; // sum_j g_ij^2 / (m_j gradient_scale^2)
     [[unroll]] for (uint k = 0u; k < TILE; ++k) {
         sum[k] = 0.0;
+        gradient[k] = vec3(0.0);
+        gradient_squares[k] = 0.0;
     }
 
     FOR_EACH_IMAGE(image, tile) {
         vec3 x[TILE];
         image_positions(tile, own, image, x);
+        vec3 image_gradient[TILE];
+        [[unroll]] for (uint k = 0u; k < TILE; ++k) {
+            image_gradient[k] = vec3(0.0);
+        }
         Walk walk = begin_walk(x);
         FOR_EACH_CANDIDATE(range, walk) {
             vec4 xj = load_candidate(position, range.x);
+            float inverse_mass = SOLVED_PRESSURE ? load_candidate(velocity, range.x).w : 0.0;
+            inverse_mass = inverse_mass > 0.0 ? 1.0 / inverse_mass : 0.0;
             [[unroll]] for (uint k = 0u; k < TILE; ++k) {
                 vec3 offset = x[k] - xj.xyz;
-                sum[k] += xj.w * density_shape(dot(offset, offset), size);
+                float r2 = dot(offset, offset);
+                sum[k] += xj.w * density_shape(r2, size);
+                if (SOLVED_PRESSURE) {
+                    float shape = has_direction(r2, size) ? force_shapes(r2, size).x : 0.0;
+                    image_gradient[k] += xj.w * shape * offset;
+                    gradient_squares[k] += inverse_mass * shape * shape * r2;
+                }
             }
+        }
+        [[unroll]] for (uint k = 0u; k < TILE; ++k) {
+            gradient[k] += image_signs(image) * image_gradient[k];
         }
     }
 
@@ -74,12 +97,20 @@ void main()
         uint material = particle_material(attributes[i]);
         float mass = load_candidate(velocity, i).w;
         float rho = mass * params.density_scale * sum[k];
-        float p = boundary ? 0.0 : state_equation(rho, params.rest_density[material]);
         float d3 = params.spacing * params.spacing * params.spacing;
         float volume = boundary ? own[k].w * d3 : mass / rho;
         float viscosity = boundary ? params.friction[material] : params.viscosity;
+        vec4 its_interaction = vec4(0.0, volume, params.viscosity_scale * viscosity * volume, 0.0);
+        if (SOLVED_PRESSURE) {
+            float response = dot(gradient[k], gradient[k]) / mass + gradient_squares[k];
+            float squared_scale = params.gradient_scale * params.gradient_scale;
+            its_interaction.w = !boundary && response > 0.0 ? 1.0 / (squared_scale * response) : 0.0;
+        } else {
+            float p = boundary ? 0.0 : state_equation(rho, params.rest_density[material]);
+            pressure[i] = p;
+            its_interaction.x = params.gradient_scale * p * volume * volume;
+        }
         density[i] = boundary ? 0.0 : rho;
-        pressure[i] = p;
-        interaction[i] = vec4(params.gradient_scale * p * volume * volume, volume, params.viscosity_scale * viscosity * volume, 0.0);
+        interaction[i] = its_interaction;
     }
 }

@@ -13,6 +13,7 @@
 #include "shared/particle_state.h"
 
 layout(constant_id = 2) const bool TENSION = false;
+layout(constant_id = 4) const bool SOLVED_PRESSURE = false; // then pressure and contact come later in the step
 
 layout(set = 0, binding = 0, scalar) uniform Params { SphParams params; };
 layout(set = 0, binding = 2, scalar) readonly buffer Position { vec4 position[]; };
@@ -35,7 +36,8 @@ vec3 wall_acceleration(vec3 x, vec3 v, float rho)
     vec3 push = max(spring - params.contact_damping * v * walls.normal, vec3(0.0)) * walls.normal;
     vec3 viscosity = half_space_viscosity(walls.distance, params.support_radius); // zero beyond the support
     float friction = params.wall_viscosity / rho * params.viscosity_scale * (viscosity.x + viscosity.y + viscosity.z);
-    return mix(vec3(0.0), push, lessThan(walls.distance, vec3(params.contact_distance))) - friction * v;
+    bvec3 in_contact = lessThan(walls.distance, vec3(SOLVED_PRESSURE ? -NO_WALL : params.contact_distance));
+    return mix(vec3(0.0), push, in_contact) - friction * v;
 }
 
 // Mueller et al. 2003: -sigma lap(c) n / |n| where the surface is, a look. n points into the fluid.
@@ -106,7 +108,7 @@ void main()
                 float r2 = dot(offset, offset);
                 vec2 shape = force_shapes(r2, size);
                 float pressure_terms = pressure_term[k] * xj.w + pressure_term_j;
-                float pressure = has_direction(r2, size) ? pressure_terms * shape.x : 0.0;
+                float pressure = !SOLVED_PRESSURE && has_direction(r2, size) ? pressure_terms * shape.x : 0.0;
                 image_force[k] += pressure * offset + volume[k] * viscous_term_j * shape.y * (vj - v[k]);
                 if (TENSION) {
                     vec2 color = color_shapes(r2, size);

@@ -19,18 +19,7 @@ layout(set = 0, binding = 7, scalar) buffer Velocity { vec4 velocity[]; };
 layout(set = 0, binding = 8) uniform textureBuffer velocity_texels;
 layout(set = 0, binding = 9, scalar) buffer StatusBuffer { Status status; };
 
-bool is_outside(vec3 x) { return any(lessThan(x, params.domain_min)) || any(greaterThan(x, params.domain_max)); }
-
-uint find_fault(vec3 x, vec3 v)
-{
-    if (any(isnan(x)) || any(isinf(x)) || any(isnan(v)) || any(isinf(v))) {
-        return FAULT_NOT_FINITE;
-    }
-    if (is_outside(x)) {
-        return FAULT_ESCAPED;
-    }
-    return dot(v, v) > params.speed_limit * params.speed_limit ? FAULT_TOO_FAST : FAULT_NONE;
-}
+#include "include/watch.glsl"
 
 void main()
 {
@@ -42,16 +31,5 @@ void main()
     vec3 x = load_candidate(position, i).xyz + params.dt * v;
     velocity[i].xyz = v;
     position[i].xyz = x;
-
-    if (is_outside(x)) {
-        attributes[i] |= FLAG_LEFT_DOMAIN;
-    }
-    uint fault = find_fault(x, v);
-    if (fault == FAULT_NONE) {
-        return;
-    }
-    // Steps run one after the other: an earlier faulty step has already left a smaller number.
-    if (atomicMin(status.first_faulty_step, step_index) >= step_index) {
-        atomicMin(status.offender, pack_offender(id[i], fault));
-    }
+    watch(i, x, v, step_index);
 }

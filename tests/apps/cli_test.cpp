@@ -199,6 +199,7 @@ TEST_F(Cli, BadInputIsOneSentenceAndExitsWithTwo)
         expect_one_sentence(run(arguments), 2, part);
     }
     expect_one_sentence(run({"follow", "drop", "--particle", "99999999"}), 2, "drop has particles 0 to");
+    expect_one_sentence(run({"follow", "drop", "--set", "solver=dfsph"}), 2, "the passes of solver \"wcsph\" alone");
     expect_one_sentence(run({"follow", "splat_sphere"}), 2, "splat_sphere has no particles to follow");
     EXPECT_FALSE(fs::exists(path("out")) && !fs::is_empty(path("out/drop")));
     EXPECT_TRUE(fs::exists("/dev/full") && !fs::is_regular_file("/dev/full"));
@@ -361,6 +362,21 @@ TEST_F(Cli, OddPathsAndNames)
     expect_one_sentence(run(quick("file/below")), 1, "cannot make the folder file/below");
 }
 
+TEST_F(Cli, IterationsOfSolvedPressureAreInTheStats)
+{
+    const Result output = run(quick("out", {"--set", "solver=dfsph", "--stats", "s.csv"}));
+    ASSERT_EQ(output.exit_code, 0);
+    const std::vector<std::string> lines = split(bytes("s.csv"), '\n');
+    const std::vector<std::string> cells = split(lines[3], ',');
+    ASSERT_EQ(cells.size(), 33u);
+    EXPECT_GE(std::stod(cells[31]), 1.0);
+    EXPECT_GE(std::stod(cells[32]), 1.0);
+    const Result short_of = run(quick("out2", {"--set", "solver=dfsph", "--set", "solve.max_iterations=1", "--set",
+                                               "solve.density_error=1e-6", "--set", "time.frames=20"}));
+    ASSERT_EQ(short_of.exit_code, 0);
+    EXPECT_NE(short_of.err.find("density solves ended at 1 iterations"), std::string::npos) << short_of.err;
+}
+
 TEST_F(Cli, StatsHaveARowAFrame)
 {
     ASSERT_EQ(run(quick("out", {"--stats", "deep/er/s.csv"})).exit_code, 0);
@@ -368,14 +384,18 @@ TEST_F(Cli, StatsHaveARowAFrame)
     ASSERT_EQ(lines.size(), 5u); // a header, three frames, nothing after the last newline
     EXPECT_EQ(lines.back(), "");
     const std::vector<std::string> names = split(lines[0], ',');
-    ASSERT_EQ(names.size(), 31u);
+    ASSERT_EQ(names.size(), 33u);
     std::vector<std::map<std::string, double>> rows;
     for (std::size_t i = 1; i <= 3; ++i) {
         const std::vector<std::string> cells = split(lines[i], ',');
         ASSERT_EQ(cells.size(), names.size());
         std::map<std::string, double>& row = rows.emplace_back();
         for (std::size_t k = 0; k < names.size(); ++k) {
-            row[names[k]] = std::stod(cells[k]);
+            if (!names[k].starts_with("iterations_")) {
+                row[names[k]] = std::stod(cells[k]);
+            } else {
+                EXPECT_EQ(cells[k], "") << "nothing is solved for";
+            }
         }
     }
     for (std::size_t i = 0; i < 3; ++i) {

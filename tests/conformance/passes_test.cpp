@@ -172,6 +172,19 @@ TEST_P(PassConformance, EachForceAlone)
     }
 }
 
+TEST_P(PassConformance, SolvedPressure)
+{
+    const auto [state, kernel] = GetParam();
+    sim::SimulationSettings settings = test_settings(kernel);
+    settings.options.solver = shared::SOLVER_DFSPH;
+    settings.params.dt = 2e-3f;
+    for (const std::uint32_t tile : {1u, 4u}) {
+        SCOPED_TRACE(tile);
+        settings.options.tile = tile;
+        expect_conformance(settings, states()[state].make());
+    }
+}
+
 TEST_P(PassConformance, EveryTileSize)
 {
     const auto [state, kernel] = GetParam();

@@ -44,6 +44,39 @@ TEST_F(Steps, FiftyStepsKeepTheTwinsEnergyAndCenter)
     }
 }
 
+sim::SimulationSettings dfsph_settings(std::uint32_t kernel)
+{
+    sim::SimulationSettings settings = test_settings(kernel);
+    settings.options.solver = shared::SOLVER_DFSPH;
+    settings.params.dt = 2e-3f;
+    return settings;
+}
+
+ParticleSet falling_block()
+{
+    ParticleSet block = lattice_state({8, 9, 8}, glm::vec3(0.3f, 0.5f * test_spacing, 0.3f));
+    std::ranges::fill(block.velocity, glm::vec3(0.3f, -1.0f, 0.1f));
+    return block;
+}
+
+TEST_F(Steps, StepsWithSolvedPressureAreTheTwins)
+{
+    for (const std::uint32_t kernel : both_kernels) {
+        SCOPED_TRACE(kernel);
+        // A set number of iterations, or rounding alone would decide how many there are.
+        sim::SimulationSettings settings = dfsph_settings(kernel);
+        settings.params.density_error = settings.params.divergence_error = 0.0f;
+        settings.params.max_iterations = 5;
+        ParticleSet on_a_plate = lattice_state({10, 4, 10}, glm::vec3(0.2f, 0.36f, 0.2f));
+        add_plate(on_a_plate, 1.0f, 0.3f, 0.75f * test_spacing, 0.3f, 3);
+        for (const ParticleSet& set : {on_a_plate, falling_block()}) {
+            expect_all(conformance::compare_steps(context(), set, settings, 1));
+            expect_all(conformance::compare_steps(context(), set, settings, 3));
+            expect_all(conformance::compare_steps(context(), set, dfsph_settings(kernel), 50));
+        }
+    }
+}
+
 // No energy to be relative to: a lattice at rest without gravity, and a particle all alone, whose energy is 0 / 0.
 TEST_F(Steps, RestWithoutGravityConforms)
 {

@@ -33,11 +33,6 @@ double dt_of(const Scene& scene)
     return static_cast<double>(settings_of(scene).simulation.params.dt);
 }
 
-/// Steps in a frame, which must be a whole number for frame times to be exact.
-double steps_in_a_frame(const Scene& scene)
-{
-    return 1.0 / (dt_of(scene) * static_cast<double>(scene.time.frame_rate));
-}
 
 TEST(FluidSettings, ExpectedSpeedIsThatOfFreeFallOntoTheFloor)
 {
@@ -102,20 +97,51 @@ TEST(FluidSettings, TheLightestFluidBoundsTheViscousStep)
     EXPECT_NEAR(time_step_bounds(scene, 40.0, 4.0).viscosity, 0.06 * 1000.0 * 0.04 / 5.0, 1e-7);
 }
 
-TEST(FluidSettings, AutomaticStepKeepsTheCflBoundAndDividesAFrame)
+TEST(FluidSettings, AutomaticStepsAreTheDevices)
 {
     Scene scene = falling_block();
+    const double spacing = static_cast<double>(scene.particles.spacing);
+    const double support = spacing * static_cast<double>(scene.particles.support_ratio);
+    const double speed = expected_speed(scene, make_particles(scene, 1'000'000));
     for (const float frame_rate : {24.0f, 60.0f, 333.0f, 5000.0f}) {
+        SCOPED_TRACE(frame_rate);
         scene.time.frame_rate = frame_rate;
-        const double speed = expected_speed(scene, make_particles(scene, 1'000'000));
+        scene.solver = Solver::Wcsph;
+        const shared::SphParams wcsph = settings_of(scene).simulation.params;
+        EXPECT_EQ(wcsph.adaptive_dt, 1u);
+        EXPECT_NEAR(wcsph.cfl_length, 0.4 * 0.5 * support, 1e-6);
+        EXPECT_NEAR(wcsph.cfl_speed, 10.0 * speed, 1e-4 * speed);
+        EXPECT_FLOAT_EQ(wcsph.longest_dt, 1.0f / frame_rate);
+        EXPECT_FLOAT_EQ(wcsph.longest_move, wcsph.cfl_length);
         const double bound = time_step_bounds(scene, 10.0 * speed, speed).cfl;
-        EXPECT_LE(dt_of(scene), bound * (1.0 + 1e-6)) << frame_rate;
-        const double steps = steps_in_a_frame(scene);
-        EXPECT_NEAR(steps, std::round(steps), 1e-4 * steps) << frame_rate;
-        EXPECT_GT(1.0 / ((steps - 1.0) * static_cast<double>(frame_rate)), steps > 1.5 ? bound : 0.0)
-            << "a larger step would do at " << frame_rate;
-        EXPECT_TRUE(settings_of(scene).warnings.empty()) << frame_rate;
+        EXPECT_NEAR(dt_of(scene), std::min(bound, 1.0 / static_cast<double>(frame_rate)), 1e-5 * bound);
+        EXPECT_TRUE(settings_of(scene).warnings.empty());
+
+        scene.solver = Solver::Dfsph;
+        const shared::SphParams dfsph = settings_of(scene).simulation.params;
+        EXPECT_EQ(dfsph.adaptive_dt, 1u);
+        EXPECT_NEAR(dfsph.cfl_length, 0.4 * spacing, 1e-6);
+        EXPECT_EQ(dfsph.cfl_speed, 0.0f);
+        EXPECT_FLOAT_EQ(dfsph.longest_dt, std::min(5e-3f, 1.0f / frame_rate));
+        EXPECT_TRUE(settings_of(scene).warnings.empty());
     }
+    scene.time.frame_rate = 60.0f;
+    scene.time.dt = 1e-4f;
+    EXPECT_EQ(settings_of(scene).simulation.params.adaptive_dt, 0u);
+    EXPECT_EQ(settings_of(scene).simulation.params.dt, 1e-4f);
+}
+
+TEST(FluidSettings, SolvesAreTheScenes)
+{
+    Scene scene = falling_block();
+    EXPECT_EQ(settings_of(scene).simulation.options.solver, shared::SOLVER_WCSPH);
+    scene.solver = Solver::Dfsph;
+    scene.solve = {.density_error = 0.01f, .divergence_error = 0.02f, .max_iterations = 7};
+    const sim::SimulationSettings settings = settings_of(scene).simulation;
+    EXPECT_EQ(settings.options.solver, shared::SOLVER_DFSPH);
+    EXPECT_EQ(settings.params.density_error, 0.01f);
+    EXPECT_EQ(settings.params.divergence_error, 0.02f);
+    EXPECT_EQ(settings.params.max_iterations, 7u);
 }
 
 TEST(FluidSettings, AutomaticStepKeepsTheViscousBound)

@@ -33,6 +33,9 @@ inline sim::SimulationSettings test_settings(std::uint32_t kernel)
     params.gamma = 7.0f;
     params.viscosity = 1.0f;
     params.friction[1] = 2.0f;
+    params.density_error = 1e-3f;
+    params.divergence_error = 1e-3f;
+    params.max_iterations = 40;
     params.dt = 2e-4f;
     params.speed_limit = 1000.0f;
     for (float& density : params.rest_density) {

@@ -88,7 +88,7 @@ Scene tank(SphKernel kernel)
 
 constexpr float coarsest = 0.75f; // spacings
 
-/// How many fluid particles `has_leaked` says so of, at any of ten moments in 0.5 s, with the scene's own time step.
+/// How many fluid particles `has_leaked` says so of, at any of ten moments in 0.5 s, with the scene's own time steps.
 template <class HasLeaked>
 std::size_t count_leaks(const gpu::Context& context, const Scene& scene, const HasLeaked& has_leaked)
 {
@@ -97,7 +97,7 @@ std::size_t count_leaks(const gpu::Context& context, const Scene& scene, const H
     sim::Simulation simulation(context, start, settings.simulation);
     std::size_t leaks = 0;
     for (int i = 0; i < 10; ++i) {
-        simulation.advance(steps_for(0.05, settings.simulation));
+        simulation.advance_by(0.05);
         const ParticleSet set = simulation.download();
         for (std::size_t p = 0; p < set.size(); ++p) {
             leaks += !shared::is_boundary(set.attributes[p]) && has_leaked(set.position[p]) ? 1 : 0;

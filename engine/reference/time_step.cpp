@@ -1,0 +1,36 @@
+// Courant, Friedrichs & Lewy 1928; Monaghan, "Smoothed Particle Hydrodynamics", Annu. Rev. Astron. Astrophys. 30, 1992
+// (the bound of the fastest particle and sound together).
+#include "reference/time_step.h"
+
+#include <algorithm>
+
+namespace meltpoint::reference {
+
+double fastest_speed(const Settings& settings, const State& state)
+{
+    double fastest = 0.0;
+    for (std::size_t i = 0; i < state.size(); ++i) {
+        if (!is_boundary(state, i)) {
+            const glm::dvec3 later =
+                state.velocity[i] + static_cast<double>(settings.params.dt) * state.acceleration[i];
+            fastest = std::max({fastest, glm::length(state.velocity[i]), glm::length(later)});
+        }
+    }
+    return fastest;
+}
+
+StepLength next_step(const shared::SphParams& params, double fastest, double limit_before, double remaining)
+{
+    const double speed = static_cast<double>(params.cfl_speed) + fastest;
+    const double grown = limit_before * static_cast<double>(shared::TIME_STEP_GROWTH);
+    double limit = std::min(static_cast<double>(params.longest_dt), grown);
+    if (speed > 0.0) {
+        limit = std::min(limit, static_cast<double>(params.cfl_length) / speed);
+    }
+    if (remaining <= limit) {
+        return {limit, remaining};
+    }
+    return {limit, remaining < 2.0 * limit ? 0.5 * remaining : limit};
+}
+
+} // namespace meltpoint::reference

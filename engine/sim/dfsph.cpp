@@ -1,0 +1,134 @@
+#include "sim/dfsph.h"
+
+#include <algorithm>
+#include <cstddef>
+#include <initializer_list>
+#include <utility>
+
+#include "sim/wcsph.h"
+#include "spirv/sim/dfsph_correct.comp.h"
+#include "spirv/sim/dfsph_residual.comp.h"
+#include "spirv/sim/drift.comp.h"
+#include "spirv/sim/reorder_warm_start.comp.h"
+
+namespace meltpoint::sim {
+
+using gpu::read;
+using gpu::read_write;
+using gpu::write;
+
+namespace {
+
+VkDeviceSize arguments_of(std::uint32_t solve)
+{
+    return solve * sizeof(shared::Solve) + offsetof(shared::Solve, groups);
+}
+
+} // namespace
+
+Dfsph::Dfsph(const gpu::Context& context, const FluidOptions& options, const shared::SphParams& params)
+    : max_iterations_(std::max(params.max_iterations, 1u)), particles_(params.particle_count),
+      correct_(context, "dfsph_correct", sim_dfsph_correct_comp, fluid_constants(context.info(), options)),
+      residual_(context, "dfsph_residual", sim_dfsph_residual_comp, fluid_constants(context.info(), options)),
+      drift_(context, "drift", sim_drift_comp), reorder_(context, "reorder_warm_start", sim_reorder_warm_start_comp),
+      corrected_velocity_(gpu::make_texel_buffer(context, particles_, "velocity")),
+      warm_start_(gpu::make_buffer<glm::vec2>(context, particles_, "warm start")),
+      sorted_warm_start_(gpu::make_buffer<glm::vec2>(context, particles_, "warm start")),
+      solves_(gpu::make_buffer<shared::Solve>(context, shared::SOLVES, "solves"))
+{
+    const std::uint32_t tile = fluid_constants(context.info(), options)[1].value;
+    const auto [x, y, z] = gpu::workgroups(context, residual_, (particles_ + tile - 1) / tile);
+    errors_ = gpu::make_buffer<glm::vec2>(context, x * y, "solve errors");
+}
+
+void Dfsph::record_start(gpu::Commands& commands, const Fluid& fluid)
+{
+    commands.fill(warm_start_, 0);
+    commands.fill(solves_, 0);
+    sim::record_sort(commands, fluid.kernels, fluid.params, fluid.particles, fluid.grid);
+    record_boundary_weight(commands, fluid.kernels, fluid.params, fluid.particles, fluid.grid);
+    commands.fill(fluid.particles.pressure, 0);
+    record_density(commands, fluid.kernels, fluid.params, fluid.particles, fluid.grid);
+    record_forces(commands, fluid.kernels, fluid.params, fluid.particles, fluid.grid);
+}
+
+void Dfsph::record_step(gpu::Commands& commands, const Fluid& fluid, std::uint32_t step)
+{
+    record_sort(commands, fluid);
+    record_density(commands, fluid.kernels, fluid.params, fluid.particles, fluid.grid);
+    record_solve(commands, fluid, shared::SOLVE_DIVERGENCE);
+    record_forces(commands, fluid.kernels, fluid.params, fluid.particles, fluid.grid);
+    fluid.time.record(commands, fluid.params, fluid.particles);
+    record_kick(commands, fluid.kernels, fluid.params, fluid.particles, 1.0f);
+    record_solve(commands, fluid, shared::SOLVE_DENSITY);
+    record_drift(commands, fluid, step);
+}
+
+void Dfsph::record_drift(gpu::Commands& commands, const Fluid& fluid, std::uint32_t step)
+{
+    const ParticleBuffers& particles = fluid.particles;
+    const gpu::Scope scope(commands, "drift");
+    commands.dispatch(drift_, particles.count, step,
+                      {read(fluid.params), read(particles.id), read(particles.interaction), read(warm_start_),
+                       read_write(particles.attributes), read_write(particles.position), read_write(particles.velocity),
+                       write(particles.pressure), read_write(fluid.status)});
+}
+
+void Dfsph::record_sort(gpu::Commands& commands, const Fluid& fluid)
+{
+    sim::record_sort(commands, fluid.kernels, fluid.params, fluid.particles, fluid.grid);
+    const gpu::Scope scope(commands, "reorder warm start");
+    commands.dispatch(reorder_, particles_, gpu::NoPush{},
+                      {read(fluid.params), read(fluid.grid.order), read(warm_start_), write(sorted_warm_start_)});
+    std::swap(warm_start_, sorted_warm_start_);
+}
+
+void Dfsph::record_correct(gpu::Commands& commands, const Fluid& fluid, std::uint32_t solve)
+{
+    const ParticleBuffers& particles = fluid.particles;
+    commands.dispatch_indirect(correct_, solves_, arguments_of(solve), gpu::NoPush{},
+                               {read(fluid.params), read(fluid.grid.cell_start), read(particles.position),
+                                read(particles.position), read(particles.interaction), read(particles.interaction),
+                                read(particles.attributes), read(particles.velocity), write(corrected_velocity_)});
+}
+
+void Dfsph::record_residual(gpu::Commands& commands, const Fluid& fluid, shared::ResidualPush push)
+{
+    const ParticleBuffers& particles = fluid.particles;
+    const gpu::Buffer& velocity = push.iteration == 0 ? particles.velocity : corrected_velocity_;
+    const std::initializer_list<gpu::Binding> bindings{read(fluid.params),
+                                                       read(fluid.grid.cell_start),
+                                                       read(particles.position),
+                                                       read(particles.position),
+                                                       read(velocity),
+                                                       read(velocity),
+                                                       read(particles.attributes),
+                                                       read_write(particles.interaction),
+                                                       read_write(warm_start_),
+                                                       read_write(errors_),
+                                                       read_write(solves_)};
+    if (push.iteration == 0) {
+        commands.dispatch(residual_, fluid.kernels.tiles(particles.count), push, bindings);
+    } else {
+        commands.dispatch_indirect(residual_, solves_, arguments_of(push.solve), push, bindings);
+    }
+}
+
+void Dfsph::record_solve(gpu::Commands& commands, const Fluid& fluid, std::uint32_t solve)
+{
+    const gpu::Scope scope(commands, solve == shared::SOLVE_DENSITY ? "solve density" : "solve divergence");
+    record_residual(commands, fluid, {.solve = solve, .iteration = 0});
+    for (std::uint32_t iteration = 1; iteration <= max_iterations_; ++iteration) {
+        record_correct(commands, fluid, solve);
+        record_residual(commands, fluid, {.solve = solve, .iteration = iteration});
+    }
+    std::swap(fluid.particles.velocity, corrected_velocity_);
+}
+
+std::uint64_t Dfsph::device_bytes() const
+{
+    return corrected_velocity_.size() + warm_start_.size() + sorted_warm_start_.size() + errors_.size() +
+           solves_.size();
+}
+
+} // namespace meltpoint::sim

@@ -1,0 +1,54 @@
+#pragma once
+
+#include "sim/solver.h"
+
+namespace meltpoint::sim {
+
+/// Divergence-free SPH (Bender & Koschier, "Divergence-Free SPH for Incompressible and Viscous Fluids", IEEE TVCG
+/// 2017). A step: sort, density and diagonal; velocities without divergence; forces other than pressure; velocities
+/// that bring the density back to rest; drift. Both solves are Jacobi iterations that end on the device, warm started
+/// with the pressures of the step before.
+class Dfsph : public Solver {
+public:
+    Dfsph(const gpu::Context& context, const FluidOptions& options, const shared::SphParams& params);
+
+    void record_start(gpu::Commands& commands, const Fluid& fluid) override;
+    void record_step(gpu::Commands& commands, const Fluid& fluid, std::uint32_t step) override;
+    [[nodiscard]] std::uint32_t scopes() const override { return 10; }
+    [[nodiscard]] std::uint64_t device_bytes() const override;
+    [[nodiscard]] const gpu::Buffer* solves() const override { return &solves_; }
+
+    // The passes, for those who compare them with their twins.
+
+    /// Sorts particles and warm starts.
+    void record_sort(gpu::Commands& commands, const Fluid& fluid);
+    /// corrected_velocity() from the velocities and the pressures of the present iterate. Nothing once the solve has
+    /// ended.
+    void record_correct(gpu::Commands& commands, const Fluid& fluid, std::uint32_t solve);
+    /// What the velocities lead to, the next iterate and whether the solve has ended. Iteration 0 looks at the
+    /// particles' own velocities and makes the warm start the first iterate, later ones at corrected_velocity().
+    void record_residual(gpu::Commands& commands, const Fluid& fluid, shared::ResidualPush push);
+    /// A whole solve (shared::SOLVE_*), after which particles.velocity is what it has found.
+    void record_solve(gpu::Commands& commands, const Fluid& fluid, std::uint32_t solve);
+
+    /// x += v dt, held off the walls; pressure; faults of step `step`.
+    void record_drift(gpu::Commands& commands, const Fluid& fluid, std::uint32_t step);
+
+    [[nodiscard]] const gpu::Buffer& corrected_velocity() const { return corrected_velocity_; }
+    [[nodiscard]] const gpu::Buffer& warm_start() const { return warm_start_; }
+
+private:
+    std::uint32_t max_iterations_;
+    std::uint32_t particles_;
+    gpu::Kernel correct_;
+    gpu::Kernel residual_;
+    gpu::Kernel drift_;
+    gpu::Kernel reorder_;
+    gpu::Buffer corrected_velocity_; ///< vec4 a particle, swapped with the velocities after a solve
+    gpu::Buffer warm_start_;         ///< vec2 a particle: one float a solve
+    gpu::Buffer sorted_warm_start_;  ///< where reorder writes
+    gpu::Buffer errors_;             ///< vec2 a workgroup
+    gpu::Buffer solves_;             ///< shared::Solve[SOLVES]
+};
+
+} // namespace meltpoint::sim

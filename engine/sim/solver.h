@@ -1,0 +1,47 @@
+#pragma once
+
+#include <cstdint>
+#include <memory>
+
+#include "gpu/commands.h"
+#include "particle_buffers/particle_buffers.h"
+#include "shared/solve.h"
+#include "sim/fluid_kernels.h"
+#include "sim/neighbor_grid.h"
+#include "sim/time_control.h"
+
+namespace meltpoint::sim {
+
+/// What the passes of a step work on.
+struct Fluid {
+    const FluidKernels& kernels;
+    const gpu::Buffer& params; ///< shared::SphParams
+    ParticleBuffers& particles;
+    NeighborGrid& grid;
+    const gpu::Buffer& status; ///< shared::Status
+    TimeControl& time;
+};
+
+/// How a fluid gets its pressure and takes a step: the one interface of all solvers.
+class Solver {
+public:
+    virtual ~Solver() = default;
+
+    /// Before the first step: what a step expects to find, and density, pressure and acceleration of the initial state.
+    virtual void record_start(gpu::Commands& commands, const Fluid& fluid) = 0;
+    /// One time step; `step` is its number, which a fault is reported with.
+    virtual void record_step(gpu::Commands& commands, const Fluid& fluid, std::uint32_t step) = 0;
+
+    /// Scopes (timestamps) of a step, at most.
+    [[nodiscard]] virtual std::uint32_t scopes() const = 0;
+    /// Device memory of its own.
+    [[nodiscard]] virtual std::uint64_t device_bytes() const = 0;
+    /// shared::Solve[shared::SOLVES]; null where nothing is solved for.
+    [[nodiscard]] virtual const gpu::Buffer* solves() const { return nullptr; }
+};
+
+/// The solver that options.solver names. Throws Device when its buffers do not fit.
+[[nodiscard]] std::unique_ptr<Solver> make_solver(const gpu::Context& context, const FluidOptions& options,
+                                                  const shared::SphParams& params);
+
+} // namespace meltpoint::sim

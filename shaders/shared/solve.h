@@ -1,0 +1,39 @@
+// The iterative solves of incompressible fluids: what a solve is asked, and what it leaves. Written by the device, so that a
+// solve ends when its error target is met without the host: the dispatches of an iteration take their workgroups from here.
+#ifndef MELTPOINT_SHARED_SOLVE_H
+#define MELTPOINT_SHARED_SOLVE_H
+#include "prelude.h"
+
+SHARED_BEGIN
+
+// What is solved for (Bender & Koschier 2015): velocities that keep the density, or that bring it back to rest density.
+SHARED_CONSTANT uint SOLVE_DIVERGENCE = 0u;
+SHARED_CONSTANT uint SOLVE_DENSITY = 1u;
+SHARED_CONSTANT uint SOLVES = 2u;
+
+// The part of the last step's pressures that a solve starts from (Bender & Koschier 2017).
+SHARED_CONSTANT float WARM_START = 0.5f;
+
+// Particles of free surfaces may come together: there is divergence to resist only from this part of rest density on.
+SHARED_CONSTANT float DIVERGENCE_FILL = 0.9f;
+
+// Which pass of a solve this is.
+struct ResidualPush {
+    uint solve;     // SOLVE_*
+    uint iteration; // 0: the warm start
+};
+
+// One solve's state. `error` is the mean over fluid particles of max(rho*/rho0 - 1, 0), rho* the density that the
+// velocities lead to within the step; of the divergence solve, the mean of max(dt drho/dt / rho0, 0).
+struct Solve {
+    uvec3 groups;           // workgroups of the next iteration's passes: (0, 0, 0) once the solve has ended
+    uint iterations;        // of the last solve
+    float error;            // that the last solve left
+    float worst_error;      // that any left since the host last asked
+    uint total_iterations;  // since the host last asked
+    uint arrived;           // workgroups of the present pass that are done
+    uint unconverged;       // solves that ended at the maximum of iterations since the host last asked
+};
+
+SHARED_END
+#endif

@@ -1,0 +1,134 @@
+#version 460
+#extension GL_EXT_control_flow_attributes : require
+#extension GL_GOOGLE_include_directive : require
+// One iteration of a solve, second half: what the velocities lead to, drho/dt or the density at the end of the step, how far
+// that is from what is wanted, and the pressures of the next iterate (Jacobi, relaxed; Bender & Koschier 2015). Fluid resists
+// being compressed, never being torn: pressures stay positive. The first iterate is the warm start, where there is anything to
+// resist. The workgroup that is done last adds up the errors and decides whether there is a next iteration. Twin:
+// engine/reference/dfsph.cpp.
+#define CELL_START_BINDING 1
+#include "include/candidate.glsl"
+#include "include/invocation.glsl"
+#include "include/neighbor_walk.glsl"
+#include "include/sph_kernel.glsl"
+#include "include/workgroup_sum.glsl"
+#include "shared/particle_state.h"
+#include "shared/solve.h"
+
+layout(push_constant, scalar) uniform Push { ResidualPush push; };
+layout(set = 0, binding = 0, scalar) uniform Params { SphParams params; };
+layout(set = 0, binding = 2, scalar) readonly buffer Position { vec4 position[]; };
+layout(set = 0, binding = 3) uniform textureBuffer position_texels;
+layout(set = 0, binding = 4, scalar) readonly buffer Velocity { vec4 velocity[]; }; // of the present iterate; w: mass
+layout(set = 0, binding = 5) uniform textureBuffer velocity_texels;
+layout(set = 0, binding = 6, scalar) readonly buffer Attributes { uint attributes[]; };
+layout(set = 0, binding = 7, scalar) buffer Interaction { vec4 interaction[]; };
+layout(set = 0, binding = 8, scalar) buffer WarmStart { vec2 warm_start[]; };    // by SOLVE_*: X gradient_scale, times dt for density
+layout(set = 0, binding = 9, scalar) coherent buffer Errors { vec2 errors[]; }; // a workgroup: sum over fluid particles, their number
+layout(set = 0, binding = 10, scalar) coherent buffer Solves { Solve solves[SOLVES]; };
+
+shared uint workgroups_before; // that were done when this one was
+
+#include "include/boundary.glsl"
+#include "include/image_walk.glsl"
+
+// sum_j s_j (v_j - v_i) . g_ij of each particle of the tile, over gradient_scale: minus the rate of its number density.
+void add_rates(vec4 own[TILE], Tile tile, out float rate[TILE])
+{
+    KernelSize size = kernel_size(params.support_radius);
+    vec3 v[TILE]; // as the present image has it
+    [[unroll]] for (uint k = 0u; k < TILE; ++k) {
+        v[k] = load_candidate(velocity, min(tile.first + k, tile.last)).xyz;
+        rate[k] = 0.0;
+    }
+    vec3 signs = vec3(1.0);
+    FOR_EACH_IMAGE(image, tile) {
+        vec3 x[TILE];
+        image_positions(tile, own, image, x);
+        vec3 flips = signs * image_signs(image);
+        signs = image_signs(image);
+        [[unroll]] for (uint k = 0u; k < TILE; ++k) {
+            v[k] *= flips;
+        }
+        Walk walk = begin_walk(x);
+        FOR_EACH_CANDIDATE(range, walk) {
+            vec4 xj = load_candidate(position, range.x);
+            vec3 vj = load_candidate(velocity, range.x).xyz;
+            [[unroll]] for (uint k = 0u; k < TILE; ++k) {
+                vec3 offset = x[k] - xj.xyz;
+                float r2 = dot(offset, offset);
+                float shape = has_direction(r2, size) ? force_shapes(r2, size).x : 0.0;
+                rate[k] += xj.w * shape * dot(vj - v[k], offset);
+            }
+        }
+    }
+}
+
+void end_iteration(float error)
+{
+    bool met = error <= (push.solve == SOLVE_DENSITY ? params.density_error : params.divergence_error);
+    bool last = push.iteration >= params.max_iterations;
+    bool ends = last || (met && push.iteration > 0u); // the warm start is only a guess
+    solves[push.solve].arrived = 0u;
+    solves[push.solve].groups = ends ? uvec3(0u) : gl_NumWorkGroups;
+    if (ends) {
+        solves[push.solve].iterations = push.iteration;
+        solves[push.solve].error = error;
+        solves[push.solve].worst_error = max(solves[push.solve].worst_error, error);
+        solves[push.solve].total_iterations += push.iteration;
+        solves[push.solve].unconverged += met ? 0u : 1u;
+    }
+}
+
+void main()
+{
+    vec2 error = vec2(0.0);
+    if (invocation_index() * TILE < params.particle_count) {
+        vec4 own[TILE];
+        Tile tile = without_boundary(load_tile(invocation_index(), own));
+        float rate[TILE];
+        add_rates(own, tile, rate);
+        [[unroll]] for (uint k = 0u; k < TILE; ++k) {
+            uint i = tile.first + k;
+            if (i > tile.last || is_boundary(attributes[i])) {
+                continue;
+            }
+            vec4 its_interaction = interaction[i];
+            float rest_volume = velocity[i].w / params.rest_density[particle_material(attributes[i])];
+            float compression = rest_volume / its_interaction.y;                           // rho / rho0
+            float change = params.dt * rest_volume * params.gradient_scale * rate[k];      // of it, in this step
+            float excess = push.solve == SOLVE_DENSITY ? compression - 1.0 + change : (compression > DIVERGENCE_FILL ? change : 0.0);
+
+            float unit = push.solve == SOLVE_DENSITY ? params.dt : 1.0;
+            float warm = its_interaction.x;
+            if (push.iteration == 0u) {
+                warm = excess > 0.0 ? WARM_START * warm_start[i][push.solve] / unit : 0.0;
+            }
+            float response = params.solve_relaxation * params.gradient_scale * its_interaction.w / (params.dt * rest_volume);
+            its_interaction.x = max(warm + response * excess, 0.0);
+            interaction[i] = its_interaction;
+            warm_start[i][push.solve] = its_interaction.x * unit;
+            error += vec2(max(excess, 0.0), 1.0);
+        }
+    }
+    error = workgroup_sum(error);
+    if (gl_LocalInvocationIndex == 0u) {
+        errors[workgroup_index()] = error;
+        memoryBarrierBuffer(); // before the count that tells the last workgroup that it is there
+        workgroups_before = atomicAdd(solves[push.solve].arrived, 1u);
+    }
+    barrier();
+    uint workgroups = gl_NumWorkGroups.x * gl_NumWorkGroups.y;
+    if (workgroups_before + 1u < workgroups) {
+        return;
+    }
+    memoryBarrierBuffer();
+    error = vec2(0.0);
+    for (uint i = gl_LocalInvocationIndex; i < workgroups; i += WORKGROUP_SIZE) {
+        error += errors[i];
+    }
+    error = workgroup_sum(error);
+    if (gl_LocalInvocationIndex == 0u) {
+        end_iteration(error.y > 0.0 ? error.x / error.y : 0.0);
+    }
+}
