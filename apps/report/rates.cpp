@@ -25,7 +25,8 @@ std::vector<bench::Result> measure(const Workplace& workplace, const Scene& scen
 {
     check_stop(workplace);
     log_info(fmt::format("{}: {} particles, 100 steps of warm-up and 70 measured", scene.name, particles.size()));
-    return bench::measure(workplace.context, particles, with_fixed_steps(fluid_settings(scene, particles).simulation), {.tiles = tiles});
+    return bench::measure(workplace.context, particles, with_fixed_steps(fluid_settings(scene, particles).simulation),
+                          {.tiles = tiles});
 }
 
 bench::Result measure_scene(const Workplace& workplace, const Scene& scene)

@@ -46,8 +46,8 @@ struct FluidPhysics {
 
 /// When the solves of incompressible fluids end.
 struct SolveSettings {
-    float density_error = 5e-4f;    ///< mean of max(rho/rho0 - 1, 0)
-    float divergence_error = 1e-3f; ///< mean of max(dt drho/dt / rho0, 0), a step
+    float density_error = 5e-4f;       ///< mean of max(rho/rho0 - 1, 0)
+    float divergence_error = 1e-3f;    ///< mean of max(dt drho/dt / rho0, 0), a step
     std::uint32_t max_iterations = 60; ///< of each solve of a step
 };
 

@@ -33,7 +33,6 @@ double dt_of(const Scene& scene)
     return static_cast<double>(settings_of(scene).simulation.params.dt);
 }
 
-
 TEST(FluidSettings, ExpectedSpeedIsThatOfFreeFallOntoTheFloor)
 {
     const Scene scene = falling_block();

@@ -150,7 +150,8 @@ TEST(FrameStatistics, ColumnsStayWhereTheyAre)
     EXPECT_EQ(statistics_header(),
               "frame,time,steps,dt,solid,fluid,dust,collider,dead,mass,kinetic_energy,potential_energy,momentum_x,"
               "momentum_y,momentum_z,com_x,com_y,com_z,min_x,min_y,min_z,max_x,max_y,max_z,density_error_mean,"
-              "density_error_max,speed_max,outside,neighbors_mean,simulate_ms,draw_ms,iterations_density,iterations_divergence\n");
+              "density_error_max,speed_max,outside,neighbors_mean,simulate_ms,draw_ms,iterations_density,iterations_"
+              "divergence\n");
 }
 
 TEST(FrameStatistics, EveryValueStandsInItsColumn)
