@@ -260,7 +260,7 @@ std::vector<SceneKey> make_scene_keys()
         k("solve.divergence_error", FIELD(solve.divergence_error), "", Range{1e-6, 0.1}, "dfsph: mean relative growth of density in a step, where positive, at which its divergence solve ends"),
         k("solve.max_iterations", FIELD(solve.max_iterations), "", Range{1, 1000}, "of a solve; ending there without having met the error is reported"),
 
-        k("time.dt", FIELD(time.dt), "s", Range{1e-9, 1}, "step; auto: the largest within the bounds of stability"),
+        k("time.dt", FIELD(time.dt), "s", Range{1e-9, 1}, "step; auto: as long as stability allows, chosen anew for every step, the last of a frame ending at its time"),
         k("time.frame_rate", FIELD(time.frame_rate), "1/s", Range{1e-2, 1e6}, "frames in a second of simulated time"),
         k("time.frames", FIELD(time.frames), "", Range{1, 1e6}, "number of frames, frame 0 (the initial state) included"),
 

@@ -14,7 +14,7 @@ public:
 
     void record_start(gpu::Commands& commands, const Fluid& fluid) override;
     void record_step(gpu::Commands& commands, const Fluid& fluid, std::uint32_t step) override;
-    [[nodiscard]] std::uint32_t scopes() const override { return 10; }
+    [[nodiscard]] std::uint32_t scopes() const override { return 11; }
     [[nodiscard]] std::uint64_t device_bytes() const override;
     [[nodiscard]] const gpu::Buffer* solves() const override { return &solves_; }
 

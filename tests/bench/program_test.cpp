@@ -2,6 +2,7 @@
 #include <cmath>
 #include <cstdlib>
 #include <filesystem>
+#include <fstream>
 #include <set>
 #include <string>
 
@@ -94,6 +95,19 @@ TEST_F(Bench, RunsAScene)
     const nlohmann::json document = nlohmann::json::parse(test::read_bytes(path("bench.json")));
     ASSERT_EQ(document["results"].size(), 1u);
     EXPECT_GT(document["results"][0]["particles"], 1000);
+}
+
+TEST_F(Bench, SolvedPressureIsMeasuredWithoutTheYardstick)
+{
+    std::ofstream(path("block.toml"))
+        << "solver = \"dfsph\"\n[particles]\nspacing = 0.1\n[[fluid]]\nshape = \"block\"\n"
+           "min = [-0.5, 0, -0.5]\nmax = [0.5, 0.5, 0.5]\n";
+    ASSERT_EQ(run("--scene '" + path("block.toml") + "' --steps 2 --warm-up 1 --json '" + path("bench.json") + "'"), 0)
+        << err_;
+    EXPECT_NE(err_.find("weakly compressible"), std::string::npos) << err_;
+    const nlohmann::json result = nlohmann::json::parse(test::read_bytes(path("bench.json")))["results"][0];
+    EXPECT_GT(result["passes"]["solve density"], 0.0);
+    EXPECT_TRUE(result["yardstick_step_ms"].is_null());
 }
 
 TEST_F(Bench, ASceneWithCollidersIsMeasuredWithoutTheYardstick)
