@@ -77,6 +77,20 @@ TEST_F(Steps, StepsWithSolvedPressureAreTheTwins)
     }
 }
 
+// Alone it never reaches rest density, so nothing but the contact holds it.
+TEST_F(Steps, WallsHoldALoneParticle)
+{
+    sim::SimulationSettings settings = dfsph_settings(shared::KERNEL_WENDLAND);
+    ParticleSet set;
+    add_particle(set, glm::vec3(0.5f, 0.05f, 0.98f), glm::vec3(0.0f, -1.0f, 3.0f));
+    sim::Simulation simulation(context(), set, settings);
+    simulation.advance(100);
+    const ParticleSet after = simulation.download();
+    EXPECT_NEAR(after.position[0].y, settings.params.contact_distance, 1e-6f);
+    EXPECT_NEAR(after.position[0].z, 1.0f - settings.params.contact_distance, 1e-6f);
+    EXPECT_NEAR(glm::length(after.velocity[0]), 0.0f, 1e-3f);
+}
+
 // No energy to be relative to: a lattice at rest without gravity, and a particle all alone, whose energy is 0 / 0.
 TEST_F(Steps, RestWithoutGravityConforms)
 {

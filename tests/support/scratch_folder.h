@@ -1,13 +1,11 @@
 #pragma once
 
-#include <atomic>
+#include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
+#include <stdexcept>
 #include <string>
-
-#include <fmt/format.h>
-#include <unistd.h>
 
 namespace meltpoint::test {
 
@@ -16,9 +14,12 @@ class ScratchFolder {
 public:
     ScratchFolder()
     {
-        static std::atomic<int> counter{0};
-        path_ = std::filesystem::temp_directory_path() / fmt::format("meltpoint-test-{}-{}", getpid(), counter++);
-        std::filesystem::create_directories(path_);
+        // Not named by process ids: they come again, and a test that was killed leaves its folder behind.
+        std::string pattern = (std::filesystem::temp_directory_path() / "meltpoint-test-XXXXXX").string();
+        if (mkdtemp(pattern.data()) == nullptr) {
+            throw std::runtime_error("no scratch folder: " + pattern);
+        }
+        path_ = pattern;
     }
     ~ScratchFolder() { std::filesystem::remove_all(path_); }
     ScratchFolder(const ScratchFolder&) = delete;
