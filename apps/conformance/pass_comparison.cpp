@@ -39,13 +39,7 @@ std::vector<PassError> compare_kick_drift(Device& device, const reference::Setti
     reference::kick(twin, 0.5 * static_cast<double>(device.params.dt));
     reference::drift(settings, twin);
 
-    const ParticleSet gpu = download_unordered(device.context, device.particles);
-    RelativeError position;
-    RelativeError velocity;
-    for (std::size_t i = 0; i < gpu.size(); ++i) {
-        position.add(gpu.position[i], twin.position[i], glm::length(twin.position[i]));
-        velocity.add(gpu.velocity[i], twin.velocity[i], glm::length(twin.velocity[i]));
-    }
+    const auto [position, velocity] = motion_error(download_unordered(device.context, device.particles), twin);
     return {{"drift: position", position.value(), pass_bound},
             {"kick: half-step velocity", velocity.value(), pass_bound}};
 }

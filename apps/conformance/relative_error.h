@@ -1,8 +1,12 @@
 #pragma once
 
 #include <cmath>
+#include <cstddef>
 
 #include <glm/glm.hpp>
+
+#include "particles/particle_set.h"
+#include "reference/state.h"
 
 namespace meltpoint::conformance {
 
@@ -27,5 +31,21 @@ private:
     double difference2_ = 0.0;
     double scale2_ = 0.0;
 };
+
+/// Of positions, relative to where they are, and of velocities.
+struct MotionError {
+    RelativeError position;
+    RelativeError velocity;
+};
+
+inline MotionError motion_error(const ParticleSet& gpu, const reference::State& twin)
+{
+    MotionError error;
+    for (std::size_t i = 0; i < gpu.size(); ++i) {
+        error.position.add(gpu.position[i], twin.position[i], glm::length(twin.position[i]));
+        error.velocity.add(gpu.velocity[i], twin.velocity[i], glm::length(twin.velocity[i]));
+    }
+    return error;
+}
 
 } // namespace meltpoint::conformance

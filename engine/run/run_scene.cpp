@@ -212,7 +212,6 @@ private:
     std::optional<render::Legend> legend_;
 };
 
-/// Warns of particles that lie on top of each other, once.
 std::string describe_steps(const Scene& scene, const shared::SphParams& params)
 {
     const std::string dt = params.adaptive_dt != 0 ? fmt::format("dt at most {:.4g} s", params.longest_dt)
@@ -220,6 +219,7 @@ std::string describe_steps(const Scene& scene, const shared::SphParams& params)
     return scene.solver == Solver::Wcsph ? fmt::format("{}, speed of sound {:.4g} m/s", dt, params.speed_of_sound) : dt;
 }
 
+/// Warns of particles that lie on top of each other, once.
 double mean_neighbors(sim::Simulation& simulation, std::uint32_t frame, bool& warned_of_coincident)
 {
     const sim::NeighborStatistics neighbors = simulation.neighbor_statistics();

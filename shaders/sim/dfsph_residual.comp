@@ -32,8 +32,8 @@ shared uint workgroups_before; // that were done when this one was
 #include "include/boundary.glsl"
 #include "include/image_walk.glsl"
 
-// sum_j s_j (v_j - v_i) . g_ij of each particle of the tile, over gradient_scale: minus the rate of its number density.
-void add_rates(vec4 own[TILE], Tile tile, out float rate[TILE])
+// sum_j s_j (v_j - v_i) . g_ij of each particle of the tile, over gradient_scale: the rate of its number density.
+void number_density_rates(vec4 own[TILE], Tile tile, out float rate[TILE])
 {
     KernelSize size = kernel_size(params.support_radius);
     vec3 v[TILE]; // as the present image has it
@@ -87,7 +87,7 @@ void main()
         vec4 own[TILE];
         Tile tile = without_boundary(load_tile(invocation_index(), own));
         float rate[TILE];
-        add_rates(own, tile, rate);
+        number_density_rates(own, tile, rate);
         [[unroll]] for (uint k = 0u; k < TILE; ++k) {
             uint i = tile.first + k;
             if (i > tile.last || is_boundary(attributes[i])) {
