@@ -420,6 +420,11 @@ mutation "time step: the fastest of the last step only" \
     'max(dot(v, v), dot(later, later))' \
     'dot(v, v)' \
     conformance_tests 'TimeControl.StepsAreTheTwins'
+mutation "time step: nothing keeps it from becoming endlessly small" \
+    shaders/sim/time_step.comp \
+    'limit = max(limit, params.shortest_dt);' \
+    '' \
+    conformance_tests 'TimeControl.StepsAreTheTwins'
 mutation "time step: it grows at once" \
     shaders/sim/time_step.comp \
     'step.limit * TIME_STEP_GROWTH' \

@@ -25,11 +25,10 @@ std::uint32_t fault_of(const shared::SphParams& params, const glm::dvec3& positi
     if (!is_finite(position) || !is_finite(velocity)) {
         return shared::FAULT_NOT_FINITE;
     }
-    if (is_outside(params, position)) {
-        return shared::FAULT_ESCAPED;
+    if (glm::length(velocity) > static_cast<double>(params.speed_limit)) {
+        return shared::FAULT_TOO_FAST;
     }
-    return glm::length(velocity) > static_cast<double>(params.speed_limit) ? shared::FAULT_TOO_FAST
-                                                                           : shared::FAULT_NONE;
+    return is_outside(params, position) ? shared::FAULT_ESCAPED : shared::FAULT_NONE;
 }
 
 } // namespace

@@ -27,6 +27,7 @@ StepLength next_step(const shared::SphParams& params, double fastest, double lim
     if (speed > 0.0) {
         limit = std::min(limit, static_cast<double>(params.cfl_length) / speed);
     }
+    limit = std::max(limit, static_cast<double>(params.shortest_dt));
     if (remaining <= limit) {
         return {limit, remaining};
     }

@@ -175,6 +175,7 @@ FluidSettings fluid_settings(const Scene& scene, const ParticleSet& particles)
     params.cfl_speed = solved ? 0.0f : params.speed_of_sound;
     params.longest_dt = static_cast<float>(
         std::min({bounds.viscosity, 1.0 / frame_rate, solved ? longest_solved_step : bounds.viscosity}));
+    params.shortest_dt = 1e-3f * params.dt;
     const double dt = static_cast<double>(params.dt);
     if (dt * frame_rate > 1.0 + 1e-6) {
         throw input_error("{}: time.dt is {:.6g} s, longer than a frame of {:.6g} s (time.frame_rate {:.6g})",

@@ -11,10 +11,10 @@ uint find_fault(vec3 x, vec3 v)
     if (any(isnan(x)) || any(isinf(x)) || any(isnan(v)) || any(isinf(v))) {
         return FAULT_NOT_FINITE;
     }
-    if (is_outside(x)) {
-        return FAULT_ESCAPED;
+    if (dot(v, v) > params.speed_limit * params.speed_limit) {
+        return FAULT_TOO_FAST; // and that is why it may have left, too
     }
-    return dot(v, v) > params.speed_limit * params.speed_limit ? FAULT_TOO_FAST : FAULT_NONE;
+    return is_outside(x) ? FAULT_ESCAPED : FAULT_NONE;
 }
 
 // Marks a particle that has left the domain, and notes the first step that has a faulty one and the smallest id of these.

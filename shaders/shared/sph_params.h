@@ -87,6 +87,7 @@ struct SphParams {
     float cfl_length;   // m
     float cfl_speed;    // m/s
     float longest_dt;   // s
+    float shortest_dt;  // s: a particle that asks for less is FAULT_TOO_FAST, instead of the run standing still
     float longest_move; // m: speed_limit times dt
 
     float speed_limit; // m/s: faster particles are FAULT_TOO_FAST

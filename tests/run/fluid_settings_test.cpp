@@ -111,6 +111,7 @@ TEST(FluidSettings, AutomaticStepsAreTheDevices)
         EXPECT_NEAR(wcsph.cfl_length, 0.4 * 0.5 * support, 1e-6);
         EXPECT_NEAR(wcsph.cfl_speed, 10.0 * speed, 1e-4 * speed);
         EXPECT_FLOAT_EQ(wcsph.longest_dt, 1.0f / frame_rate);
+        EXPECT_FLOAT_EQ(wcsph.shortest_dt, 1e-3f * wcsph.dt);
         EXPECT_FLOAT_EQ(wcsph.longest_move, wcsph.cfl_length);
         const double bound = time_step_bounds(scene, 10.0 * speed, speed).cfl;
         EXPECT_NEAR(dt_of(scene), std::min(bound, 1.0 / static_cast<double>(frame_rate)), 1e-5 * bound);

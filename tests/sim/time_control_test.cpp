@@ -4,8 +4,10 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <string>
 
 #include "conformance/device.h"
+#include "core/error.h"
 #include "reference/time_step.h"
 #include "support/fluid_states.h"
 #include "support/gpu_test.h"
@@ -22,6 +24,7 @@ protected:
         settings.params.cfl_length = 0.03f;
         settings.params.cfl_speed = 40.0f;
         settings.params.longest_dt = 1e-3f;
+        settings.params.shortest_dt = 2e-6f;
         settings.params.longest_move = 0.03f;
         return settings;
     }
@@ -60,7 +63,7 @@ protected:
 TEST_F(TimeControl, StepsAreTheTwins)
 {
     const float infinite = std::numeric_limits<float>::infinity();
-    for (const float speed : {0.0f, 1.0f, 30.0f, 1000.0f}) {
+    for (const float speed : {0.0f, 1.0f, 30.0f, 1000.0f, 1e5f}) {
         const ParticleSet set = moving_particles(speed);
         const reference::Settings twin = conformance::reference_settings(settings().params, settings());
         const double fastest = reference::fastest_speed(twin, reference::from_particle_set(set));
@@ -132,6 +135,25 @@ TEST_F(TimeControl, RunsEndAtTheTimeAskedFor)
         EXPECT_EQ(simulation.step(), steps + 7);
         EXPECT_NEAR(static_cast<double>(simulation.download().velocity[0].y), -9.81 * simulation.time(), 1e-5);
         EXPECT_GT(simulation.time(), time + 7 * 0.2e-3);
+    }
+}
+
+TEST_F(TimeControl, ASpeedOutOfAllBoundsIsReportedNotWaitedFor)
+{
+    for (const std::uint32_t solver : {shared::SOLVER_WCSPH, shared::SOLVER_DFSPH}) {
+        ParticleSet set;
+        add_particle(set, glm::vec3(0.5f));
+        set.velocity[0] = glm::vec3(1e7f, 0.0f, 0.0f);
+        sim::SimulationSettings fast = settings();
+        fast.options.solver = solver;
+        sim::Simulation simulation(context(), set, fast);
+        try {
+            simulation.advance_by(0.1);
+            ADD_FAILURE() << "no error";
+        } catch (const Error& error) {
+            EXPECT_EQ(error.kind(), ErrorKind::Runtime);
+            EXPECT_NE(std::string(error.what()).find("faster than the time step allows"), std::string::npos);
+        }
     }
 }
 
