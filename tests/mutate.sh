@@ -420,6 +420,26 @@ mutation "time step: the fastest of the last step only" \
     'max(dot(v, v), dot(later, later))' \
     'dot(v, v)' \
     conformance_tests 'TimeControl.StepsAreTheTwins'
+mutation "neighbor bits: none of those at the rim" \
+    shaders/include/neighbor_bits.glsl \
+    '* (1.0 + 1e-6);' \
+    '* 0.9;' \
+    conformance_tests 'NeighborBits.AreThoseOfTheNeighborsAndNoOthers'
+mutation "neighbor bits: all candidates are taken for neighbors" \
+    shaders/include/neighbor_bits.glsl \
+    'nearest2 <= reach2 ? bit : 0u' \
+    'bit' \
+    conformance_tests 'NeighborBits.AreThoseOfTheNeighborsAndNoOthers'
+mutation "neighbor bits: a chunk without a word forgets its last candidate" \
+    shaders/include/neighbor_bits.glsl \
+    '~0u >> (CHUNK - (chunk.end - chunk.first))' \
+    '~0u >> (CHUNK - (chunk.end - chunk.first)) >> 1u' \
+    conformance_tests 'NeighborBits.NothingDependsOnHowManyThereIsRoomFor'
+mutation "neighbor bits: every chunk shares a word with the tile before" \
+    shaders/include/neighbor_bits.glsl \
+    '(params.particle_count + TILE - 1u) / TILE : 0u' \
+    '(params.particle_count + TILE - 1u) / TILE - 1u : 0u' \
+    conformance_tests 'NeighborBits.NothingDependsOnHowManyThereIsRoomFor'
 mutation "time step: nothing keeps it from becoming endlessly small" \
     shaders/sim/time_step.comp \
     'limit = max(limit, params.shortest_dt);' \

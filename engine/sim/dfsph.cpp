@@ -89,7 +89,8 @@ void Dfsph::record_correct(gpu::Commands& commands, const Fluid& fluid, std::uin
     commands.dispatch_indirect(correct_, solves_, arguments_of(solve), gpu::NoPush{},
                                {read(fluid.params), read(fluid.grid.cell_start), read(particles.position),
                                 read(particles.position), read(particles.interaction), read(particles.interaction),
-                                read(particles.attributes), read(particles.velocity), write(corrected_velocity_)});
+                                read(particles.attributes), read(particles.velocity), write(corrected_velocity_),
+                                read(fluid.grid.neighbor_bits)});
 }
 
 void Dfsph::record_residual(gpu::Commands& commands, const Fluid& fluid, shared::ResidualPush push)
@@ -106,7 +107,8 @@ void Dfsph::record_residual(gpu::Commands& commands, const Fluid& fluid, shared:
                                                        read_write(particles.interaction),
                                                        read_write(warm_start_),
                                                        read_write(errors_),
-                                                       read_write(solves_)};
+                                                       read_write(solves_),
+                                                       read(fluid.grid.neighbor_bits)};
     if (push.iteration == 0) {
         commands.dispatch(residual_, fluid.kernels.tiles(particles.count), push, bindings);
     } else {

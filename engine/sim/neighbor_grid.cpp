@@ -1,6 +1,8 @@
 #include "sim/neighbor_grid.h"
 
+#include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <utility>
 
 #include "core/error.h"
@@ -22,6 +24,12 @@ std::uint32_t checked_cell_count(const glm::uvec3& size)
     return size.x * size.y * size.z;
 }
 
+std::size_t neighbor_bit_words(const gpu::Context& context, std::uint32_t particle_count)
+{
+    const std::size_t most = context.limits().maxStorageBufferRange / sizeof(std::uint32_t);
+    return std::min(most, std::size_t{particle_count} * NeighborGrid::neighbor_words);
+}
+
 } // namespace
 
 glm::uvec3 grid_size(const glm::vec3& domain_min, const glm::vec3& domain_max, float support_radius)
@@ -40,7 +48,9 @@ NeighborGrid::NeighborGrid(const gpu::Context& context, std::uint32_t particle_c
       sorted_id(gpu::make_buffer<std::uint32_t>(context, particle_count, "id")),
       sorted_attributes(gpu::make_buffer<std::uint32_t>(context, particle_count, "attributes")),
       sorted_position(gpu::make_texel_buffer(context, particle_count, "position")),
-      sorted_velocity(gpu::make_texel_buffer(context, particle_count, "velocity"))
+      sorted_velocity(gpu::make_texel_buffer(context, particle_count, "velocity")),
+      neighbor_bits(
+          gpu::make_buffer<std::uint32_t>(context, neighbor_bit_words(context, particle_count), "neighbor bits"))
 {
 }
 

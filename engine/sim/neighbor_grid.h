@@ -15,6 +15,10 @@ namespace meltpoint::sim {
 
 /// Uniform grid over the domain: the particles are sorted by (cell, id), so a row of cells is one range of particles.
 struct NeighborGrid {
+    /// Words of neighbor_bits a particle, where the device's buffers may be so large: those of most tiles at H = 2 d and 3 d,
+    /// images included. No result depends on it.
+    static constexpr std::uint32_t neighbor_words = 12;
+
     /// Throws Input when the domain has more cells than a device of this kind can hold.
     NeighborGrid(const gpu::Context& context, std::uint32_t particle_count, const glm::uvec3& size);
 
@@ -29,6 +33,7 @@ struct NeighborGrid {
     gpu::Buffer sorted_attributes;
     gpu::Buffer sorted_position;
     gpu::Buffer sorted_velocity;
+    gpu::Buffer neighbor_bits; ///< uint: which candidates are neighbors (shaders/include/neighbor_bits.glsl)
 };
 
 /// Sorts the particles by (cell, id): key, counting sort, reorder. Swaps particles' buffers with the grid's.

@@ -19,8 +19,9 @@ namespace {
 constexpr std::uint32_t max_steps_per_submission = 16;
 constexpr std::uint32_t particle_steps_per_submission = 1'000'000;
 
-/// Particles and the grid's copies of them, per particle, with the sort's keys, order and scratch.
-constexpr std::uint64_t bytes_per_particle = particle_buffer_bytes + 2 * sizeof(glm::vec4) + 8 * sizeof(std::uint32_t);
+/// Particles and the grid's copies of them, per particle, with the sort's keys, order and scratch, and the neighbors' bits.
+constexpr std::uint64_t bytes_per_particle =
+    particle_buffer_bytes + 2 * sizeof(glm::vec4) + (8 + NeighborGrid::neighbor_words) * sizeof(std::uint32_t);
 
 std::string_view describe_fault(std::uint32_t fault)
 {
@@ -169,6 +170,7 @@ std::uint64_t Simulation::device_bytes() const
                                       &grid_.sorted_attributes,
                                       &grid_.sorted_position,
                                       &grid_.sorted_velocity,
+                                      &grid_.neighbor_bits,
                                       &grid_.scratch.counts,
                                       &grid_.scratch.unordered,
                                       &grid_.scratch.slot_ids,

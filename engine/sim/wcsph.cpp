@@ -35,7 +35,8 @@ void record_density(gpu::Commands& commands, const FluidKernels& kernels, const 
     commands.dispatch(kernels.density, kernels.tiles(particles.count), gpu::NoPush{},
                       {read(params), read(grid.cell_start), read(particles.position), read(particles.position),
                        read(particles.attributes), read(particles.velocity), read(particles.velocity),
-                       write(particles.density), write(particles.pressure), write(particles.interaction)});
+                       write(particles.density), write(particles.pressure), write(particles.interaction),
+                       write(grid.neighbor_bits)});
 }
 
 void record_forces(gpu::Commands& commands, const FluidKernels& kernels, const gpu::Buffer& params,
@@ -45,7 +46,8 @@ void record_forces(gpu::Commands& commands, const FluidKernels& kernels, const g
     commands.dispatch(kernels.forces, kernels.tiles(particles.count), gpu::NoPush{},
                       {read(params), read(grid.cell_start), read(particles.position), read(particles.position),
                        read(particles.velocity), read(particles.velocity), read(particles.interaction),
-                       read(particles.interaction), read(particles.attributes), write(particles.acceleration)});
+                       read(particles.interaction), read(particles.attributes), write(particles.acceleration),
+                       read(grid.neighbor_bits)});
 }
 
 void record_kick(gpu::Commands& commands, const FluidKernels& kernels, const gpu::Buffer& params,

@@ -16,6 +16,7 @@ struct Tile {
     bool is_wide;     // they walk one by one
     uint images_left; // of those who walk
     int walks;        // that one of them, or TOGETHER
+    uint next_word;   // of include/neighbor_bits.glsl, for the next chunk of candidates
 };
 
 Walk begin_walk(vec3 x[TILE]) { return begin_walk(x, params.domain_min, params.support_radius, params.grid_size); }
@@ -46,6 +47,7 @@ uint first_image(inout Tile tile)
 {
     tile.images_left = tile.images;
     tile.walks = tile.is_wide ? 0 : TOGETHER;
+    tile.next_word = tile.first / TILE;
     return 0u;
 }
 

@@ -7,6 +7,8 @@
 // g_ij = -grad W_ij, 1 / (|sum_j s_j g_ij|^2 / m_i + sum_j |g_ij|^2 / m_j), the latter over fluid. Boundary particles have
 // none of these. Twins: engine/reference/density.cpp, dfsph.cpp.
 #define CELL_START_BINDING 1
+#define FINDS_NEIGHBORS
+#define NEIGHBOR_BITS_BINDING 10
 #include "include/candidate.glsl"
 #include "include/invocation.glsl"
 #include "include/neighbor_walk.glsl"
@@ -27,6 +29,7 @@ layout(constant_id = 4) const bool SOLVED_PRESSURE = false;
 
 #include "include/boundary.glsl"
 #include "include/image_walk.glsl"
+#include "include/neighbor_bits.glsl"
 
 float state_equation(float rho, float rho0)
 {
@@ -67,9 +70,10 @@ void main()
             image_gradient[k] = vec3(0.0);
         }
         Walk walk = begin_walk(x);
-        FOR_EACH_CANDIDATE(range, walk) {
-            vec4 xj = load_candidate(position, range.x);
-            float inverse_mass = SOLVED_PRESSURE ? load_candidate(velocity, range.x).w : 0.0;
+        FOR_EACH_NEIGHBOR(tile, walk, x, chunk, bits) {
+            uint j = chunk.first + findLSB(bits);
+            vec4 xj = load_candidate(position, j);
+            float inverse_mass = SOLVED_PRESSURE ? load_candidate(velocity, j).w : 0.0;
             inverse_mass = inverse_mass > 0.0 ? 1.0 / inverse_mass : 0.0;
             [[unroll]] for (uint k = 0u; k < TILE; ++k) {
                 vec3 offset = x[k] - xj.xyz;

@@ -5,6 +5,7 @@
 // & Koschier 2015): v_i' = v_i + sum_j (X_i s_j + X_j s_i) g_ij / m_i with X = dt p V^2 and g_ij = -grad W_ij. This conserves
 // momentum whatever the iterate. Boundary particles stay at rest. Twin: engine/reference/dfsph.cpp.
 #define CELL_START_BINDING 1
+#define NEIGHBOR_BITS_BINDING 9
 #include "include/candidate.glsl"
 #include "include/invocation.glsl"
 #include "include/neighbor_walk.glsl"
@@ -22,6 +23,7 @@ layout(set = 0, binding = 8, scalar) writeonly buffer Corrected { vec4 corrected
 
 #include "include/boundary.glsl"
 #include "include/image_walk.glsl"
+#include "include/neighbor_bits.glsl"
 
 void main()
 {
@@ -46,9 +48,10 @@ void main()
             image_impulse[k] = vec3(0.0);
         }
         Walk walk = begin_walk(x);
-        FOR_EACH_CANDIDATE(range, walk) {
-            vec4 xj = load_candidate(position, range.x);
-            float pressure_term_j = load_candidate(interaction, range.x).x;
+        FOR_EACH_NEIGHBOR(tile, walk, x, chunk, bits) {
+            uint j = chunk.first + findLSB(bits);
+            vec4 xj = load_candidate(position, j);
+            float pressure_term_j = load_candidate(interaction, j).x;
             [[unroll]] for (uint k = 0u; k < TILE; ++k) {
                 vec3 offset = x[k] - xj.xyz;
                 float r2 = dot(offset, offset);

@@ -7,6 +7,7 @@
 // resist. The workgroup that is done last adds up the errors and decides whether there is a next iteration. Twin:
 // engine/reference/dfsph.cpp.
 #define CELL_START_BINDING 1
+#define NEIGHBOR_BITS_BINDING 11
 #include "include/candidate.glsl"
 #include "include/invocation.glsl"
 #include "include/neighbor_walk.glsl"
@@ -31,6 +32,7 @@ shared uint workgroups_before; // that were done when this one was
 
 #include "include/boundary.glsl"
 #include "include/image_walk.glsl"
+#include "include/neighbor_bits.glsl"
 
 // sum_j s_j (v_j - v_i) . g_ij of each particle of the tile, over gradient_scale: the rate of its number density.
 void number_density_rates(vec4 own[TILE], Tile tile, out float rate[TILE])
@@ -51,9 +53,10 @@ void number_density_rates(vec4 own[TILE], Tile tile, out float rate[TILE])
             v[k] *= flips;
         }
         Walk walk = begin_walk(x);
-        FOR_EACH_CANDIDATE(range, walk) {
-            vec4 xj = load_candidate(position, range.x);
-            vec3 vj = load_candidate(velocity, range.x).xyz;
+        FOR_EACH_NEIGHBOR(tile, walk, x, chunk, bits) {
+            uint j = chunk.first + findLSB(bits);
+            vec4 xj = load_candidate(position, j);
+            vec3 vj = load_candidate(velocity, j).xyz;
             [[unroll]] for (uint k = 0u; k < TILE; ++k) {
                 vec3 offset = x[k] - xj.xyz;
                 float r2 = dot(offset, offset);

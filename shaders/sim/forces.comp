@@ -6,6 +6,7 @@
 // grad W + mu V_i V_j (v_j - v_i) lap W, with V = m / rho and the weights s (Mueller et al. 2003 as corrected; Solenthaler &
 // Pajarola 2008; Akinci et al. 2012). Boundary particles do not move: what they feel is left out. Twin: engine/reference/forces.cpp.
 #define CELL_START_BINDING 1
+#define NEIGHBOR_BITS_BINDING 10
 #include "include/candidate.glsl"
 #include "include/invocation.glsl"
 #include "include/neighbor_walk.glsl"
@@ -27,6 +28,7 @@ layout(set = 0, binding = 9, scalar) writeonly buffer Acceleration { vec4 accele
 
 #include "include/boundary.glsl"
 #include "include/image_walk.glsl"
+#include "include/neighbor_bits.glsl"
 
 // Friction against walls at rest, and the contact spring.
 vec3 wall_acceleration(vec3 x, vec3 v, float rho)
@@ -95,8 +97,8 @@ void main()
             image_gradient[k] = vec3(0.0);
         }
         Walk walk = begin_walk(x);
-        FOR_EACH_CANDIDATE(range, walk) {
-            uint j = range.x;
+        FOR_EACH_NEIGHBOR(tile, walk, x, chunk, bits) {
+            uint j = chunk.first + findLSB(bits);
             vec4 xj = load_candidate(position, j);
             vec3 vj = load_candidate(velocity, j).xyz;
             vec3 interaction_j = load_candidate(interaction, j).xyz;
