@@ -369,6 +369,43 @@ mutation "faults: the largest id is reported" \
     'atomicMax(status.offender' \
     conformance_tests 'Steps.ANotANumberIsReportedWithTheSmallestId'
 
+# --- forces on colliders -------------------------------------------------------------------------------------------------
+mutation "forces on colliders: the weight of boundary particles is left out" \
+    shaders/sim/boundary_force.comp \
+    'params.dt * own[k].w * push_force[k]' \
+    'params.dt * push_force[k]' \
+    conformance_tests '*PassConformance.AllPasses/OnACollider*'
+mutation "forces on colliders: friction of a fifth more" \
+    shaders/sim/boundary_force.comp \
+    'params.dt * friction[k]' \
+    '1.2 * params.dt * friction[k]' \
+    conformance_tests '*PassConformance.AllPasses/OnACollider*'
+mutation "forces on colliders: the divergence solve is forgotten" \
+    shaders/sim/boundary_impulse.comp \
+    'of_solves[SOLVE_DIVERGENCE] + of_solves[SOLVE_DENSITY] / params.dt' \
+    'of_solves[SOLVE_DENSITY] / params.dt' \
+    conformance_tests '*PassConformance.SolvedPressure/OnACollider*'
+mutation "forces on colliders: of the iterate that has not acted" \
+    shaders/sim/dfsph_residual.comp \
+    'warm_start[i][push.solve] = acted * unit' \
+    'warm_start[i][push.solve] = max(acted + excess * params.solve_relaxation * params.gradient_scale * its_interaction.w / (params.dt * rest_volume), 0.0) * unit' \
+    physics_short_tests 'ColliderForces.GiveThePlateWhatTheyTakeFromTheFluid'
+mutation "forces on colliders: images push like the fluid" \
+    shaders/sim/boundary_impulse.comp \
+    'image_signs(image) * image_impulse[k]' \
+    'image_impulse[k]' \
+    conformance_tests '*PassConformance.SolvedPressure/OnACollider*'
+mutation "colliders: boundary particles on the surface of solids" \
+    engine/run/scene_particles.cpp \
+    '(distance - 0.5 - settled) * spacing, limit' \
+    '1e-3 * spacing, limit' \
+    physics_short_tests 'ColliderForces.ABallUnderWaterIsLifted'
+mutation "colliders: points sink through what is thin" \
+    engine/geometry/sunk_samples.cpp \
+    'return depth * inside / probes' \
+    'return depth' \
+    unit_tests 'SunkSamples.*'
+
 # --- solved pressure and time steps ---------------------------------------------------------------------------------------
 mutation "solve: the diagonal forgets the neighbors" \
     shaders/sim/density.comp \
@@ -387,8 +424,8 @@ mutation "solve: images move like the particles" \
     conformance_tests '*PassConformance.SolvedPressure/LatticeOnTheFloor*'
 mutation "solve: pressures pull" \
     shaders/sim/dfsph_residual.comp \
-    'max(warm + response * excess, 0.0)' \
-    'warm + response * excess' \
+    'max(acted + response * excess, 0.0)' \
+    'acted + response * excess' \
     conformance_tests '*PassConformance.SolvedPressure/Splash*'
 mutation "solve: no warm start" \
     shaders/sim/dfsph_residual.comp \

@@ -2,9 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include <fmt/format.h>
 
+#include "conformance/boundary_comparison.h"
 #include "conformance/device.h"
 #include "conformance/dfsph_comparison.h"
 #include "conformance/relative_error.h"
@@ -236,6 +238,9 @@ std::vector<PassError> compare_passes(const gpu::Context& context, const Particl
         }
     }
     errors.push_back(compare_forces(device, twin_settings, neighbors));
+    for (PassError& error : compare_boundary_forces(device, settings.options, twin_settings, neighbors)) {
+        errors.push_back(std::move(error));
+    }
     errors.push_back(compare_kick(device));
     return errors;
 }

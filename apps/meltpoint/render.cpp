@@ -28,6 +28,7 @@ struct RenderOptions {
     std::string video;
     std::string particles;
     std::string stats;
+    std::string forces;
     bool force = false;
 };
 
@@ -79,6 +80,7 @@ int render(const RenderOptions& options, bool quiet)
                                          {.out = out,
                                           .video = options.video,
                                           .stats = options.stats,
+                                          .forces = options.forces,
                                           .particles = !options.particles.empty(),
                                           .force = options.force,
                                           .quiet = quiet,
@@ -119,6 +121,11 @@ void add_render(CLI::App& app, const GlobalOptions& global, int& exit_code)
         ->check(CLI::IsMember({"ply"}));
     command
         ->add_option("--stats", options->stats, "Also writes a table, one row a frame, SI units (README, Statistics)")
+        ->type_name("FILE.csv");
+    command
+        ->add_option("--forces", options->forces,
+                     "Also writes the forces of fluid on each collider, one row a frame and collider, N and N m "
+                     "(README, Forces)")
         ->type_name("FILE.csv");
     command->add_flag("--force", options->force, "Replaces existing output");
     command->callback([options, &global, &exit_code] { exit_code = render(*options, global.quiet); });

@@ -103,6 +103,7 @@ SolveResult solve(const Settings& settings, State& state, const Neighbors& neigh
                                                                              : settings.params.divergence_error);
     std::vector<double> diagonal(count, 0.0);
     std::vector<double> impulse(count, 0.0);
+    std::vector<double> acted(count, 0.0); // what the velocities have in them
     std::vector<double> errors(count, 0.0);
     std::vector<glm::dvec3> velocity = state.velocity;
     std::size_t fluid = 0;
@@ -120,6 +121,7 @@ SolveResult solve(const Settings& settings, State& state, const Neighbors& neigh
                 diagonal[i] = jacobi_diagonal(settings, state, neighbors, i);
                 impulse[i] = first_impulse(settings, e, warm_start[i], solve);
             }
+            acted[i] = impulse[i];
             impulse[i] = next_impulse(settings, state, diagonal[i], e, impulse[i], i);
             errors[i] = std::max(e, 0.0);
         });
@@ -139,7 +141,7 @@ SolveResult solve(const Settings& settings, State& state, const Neighbors& neigh
     }
     const double unit = solve == shared::SOLVE_DENSITY ? step_length(settings) : 1.0;
     for (std::size_t i = 0; i < count; ++i) {
-        warm_start[i] = impulse[i] * unit;
+        warm_start[i] = acted[i] * unit;
     }
     state.velocity = velocity;
     return result;

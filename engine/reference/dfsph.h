@@ -51,8 +51,8 @@ struct SolveResult {
     double error = 0.0; ///< mean of the positive excesses of fluid particles
 };
 
-/// A whole solve: changes the state's velocities, and the warm start of the step to come. Ends as
-/// sim/solve_control.comp.
+/// A whole solve: changes the state's velocities, and leaves in warm_start the impulses that have changed them. Ends as
+/// sim/dfsph_residual.comp.
 SolveResult solve(const Settings& settings, State& state, const Neighbors& neighbors, std::uint32_t solve,
                   std::vector<double>& warm_start);
 

@@ -1,10 +1,13 @@
 #include "run/run_scene.h"
 
+#include <algorithm>
 #include <cerrno>
 #include <chrono>
 #include <cmath>
+#include <initializer_list>
 #include <memory>
 #include <optional>
+#include <string_view>
 
 #include <fcntl.h>
 #include <sys/file.h>
@@ -21,6 +24,7 @@
 #include "render/disc_buffers.h"
 #include "render/legend.h"
 #include "render/renderer.h"
+#include "run/collider_forces.h"
 #include "run/frame_statistics.h"
 #include "run/frame_view.h"
 #include "run/output_files.h"
@@ -50,33 +54,39 @@ std::filesystem::path particles_path(const RunOptions& options, std::uint32_t fr
     return options.out / fmt::format("particles_{:04}.ply", frame);
 }
 
-/// Two outputs of one name would replace each other.
-void refuse_twins(const Scene& scene, const RunOptions& options)
+/// Two outputs of one name would replace each other: is that of a table a frame's, or one of the `others`?
+void refuse_twins(const Scene& scene, const RunOptions& options, std::string_view option,
+                  const std::filesystem::path& table, std::initializer_list<std::filesystem::path> others)
 {
     const auto normal = [](const std::filesystem::path& path) {
         return std::filesystem::absolute(path).lexically_normal();
     };
-    if (options.stats.empty()) {
+    if (table.empty()) {
         return;
     }
-    const std::filesystem::path stats = normal(options.stats);
-    bool is_taken = !options.video.empty() && stats == normal(options.video);
-    if (stats.parent_path() == normal(options.out / "any").parent_path()) {
+    const std::filesystem::path file = normal(table);
+    bool is_taken =
+        std::ranges::any_of(others, [&](const auto& other) { return !other.empty() && file == normal(other); });
+    if (file.parent_path() == normal(options.out / "any").parent_path()) {
         for (std::uint32_t frame = 0; frame < scene.time.frames && !is_taken; ++frame) {
-            is_taken = stats.filename() == frame_path(options, frame).filename() ||
-                       (options.particles && stats.filename() == particles_path(options, frame).filename());
+            is_taken = file.filename() == frame_path(options, frame).filename() ||
+                       (options.particles && file.filename() == particles_path(options, frame).filename());
         }
     }
     if (is_taken) {
-        throw input_error("--stats {}: another output of this run has that name", options.stats.string());
+        throw input_error("{} {}: another output of this run has that name", option, table.string());
     }
 }
 
 /// Throws where existing output stands in the way. Changes nothing.
 void check_output(const Scene& scene, const RunOptions& options)
 {
-    refuse_twins(scene, options);
-    for (const std::filesystem::path& file : {options.video, options.stats}) {
+    refuse_twins(scene, options, "--stats", options.stats, {options.video, options.forces});
+    refuse_twins(scene, options, "--forces", options.forces, {options.video});
+    if (!options.forces.empty() && scene.colliders.empty()) {
+        throw input_error("--forces {}: the scene has no colliders", options.forces.string());
+    }
+    for (const std::filesystem::path& file : {options.video, options.stats, options.forces}) {
         if (!file.empty()) {
             refuse_special(file);
         }
@@ -84,7 +94,7 @@ void check_output(const Scene& scene, const RunOptions& options)
     if (options.force) {
         return;
     }
-    for (const std::filesystem::path& file : {options.video, options.stats}) {
+    for (const std::filesystem::path& file : {options.video, options.stats, options.forces}) {
         if (!file.empty()) {
             refuse_existing(file);
         }
@@ -100,7 +110,7 @@ void check_output(const Scene& scene, const RunOptions& options)
 void make_folders(const RunOptions& options)
 {
     for (const std::filesystem::path& folder :
-         {options.out, options.video.parent_path(), options.stats.parent_path()}) {
+         {options.out, options.video.parent_path(), options.stats.parent_path(), options.forces.parent_path()}) {
         make_folder(folder);
     }
 }
@@ -147,14 +157,15 @@ double playback_rate(const Scene& scene)
     return rate >= 10.0 && rate <= 2.0 * screen_rate ? rate : screen_rate;
 }
 
-/// The stats file so far is written again with every frame, aside and renamed: whatever happens, whole rows remain.
-class StatisticsFile {
+/// A table of which all so far is written again with every frame, aside and renamed: whatever happens, whole rows
+/// remain.
+class TableFile {
 public:
-    explicit StatisticsFile(std::filesystem::path path) : path_(std::move(path)), text_(statistics_header()) {}
+    TableFile(std::filesystem::path path, std::string_view header) : path_(std::move(path)), text_(header) {}
 
-    void add(const FrameStatistics& statistics)
+    void add(std::string_view rows)
     {
-        text_ += statistics_row(statistics);
+        text_ += rows;
         write_file_atomically(path_, std::as_bytes(std::span(text_)));
     }
 
@@ -270,9 +281,14 @@ RunSummary run_scene(const gpu::Context& context, const Scene& scene, const RunO
     const shared::SphParams& params = started.params;
     const std::uint32_t particle_count = simulation ? simulation->particles().count : 0;
     FramePainter painter(context, scene, params);
-    std::optional<StatisticsFile> statistics_file;
+    std::optional<TableFile> statistics_file;
     if (!options.stats.empty()) {
-        statistics_file.emplace(options.stats);
+        statistics_file.emplace(options.stats, statistics_header());
+    }
+    std::optional<TableFile> forces_file;
+    if (!options.forces.empty() && simulation) {
+        forces_file.emplace(options.forces, forces_header());
+        simulation->measure_boundary_forces();
     }
     if (!options.quiet) {
         log_info(fmt::format("{}: {} particles, {}, on {}", scene.name, particle_count, describe_steps(scene, params),
@@ -340,8 +356,12 @@ RunSummary run_scene(const gpu::Context& context, const Scene& scene, const RunO
                 }
                 statistics.simulate_ms = simulate_ms;
                 statistics.draw_ms = draw_ms;
-                statistics_file->add(statistics);
+                statistics_file->add(statistics_row(statistics));
             }
+        }
+        if (forces_file) {
+            const auto forces = collider_forces(simulation->take_boundary_forces(), started.colliders);
+            forces_file->add(forces_rows(frame, summary.time, forces));
         }
         ++summary.frames;
         progress.advance(fmt::format("{:.3f} s", summary.time));

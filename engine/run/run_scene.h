@@ -14,6 +14,7 @@ struct RunOptions {
     std::filesystem::path out;               ///< folder of frame_NNNN.png; made when missing
     std::filesystem::path video;             ///< empty: none
     std::filesystem::path stats;             ///< empty: none
+    std::filesystem::path forces;            ///< of fluid on colliders; empty: none
     bool particles = false;                  ///< particles_NNNN.ply beside the frames
     bool force = false;                      ///< replace existing output
     bool quiet = false;                      ///< no progress

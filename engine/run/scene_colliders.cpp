@@ -9,9 +9,11 @@
 #include "core/aabb.h"
 #include "core/error.h"
 #include "core/log.h"
+#include "core/overloaded.h"
 #include "geometry/cloud_solid.h"
 #include "geometry/cloud_surface.h"
 #include "geometry/mesh_facts.h"
+#include "geometry/sunk_samples.h"
 #include "geometry/surface_sampling.h"
 #include "run/placed_mesh.h"
 
@@ -29,9 +31,9 @@ double area_of(const CloudSurface& cloud)
     return cloud.area;
 }
 
-/// The points of collider `c`, wherever they lie.
+/// The points on the surface of collider `c`, wherever they lie.
 template <class Surface>
-std::vector<glm::vec3> sample_collider(const Scene& scene, std::size_t c, const Surface& surface, std::uint64_t limit)
+PointCloud sample_collider(const Scene& scene, std::size_t c, const Surface& surface, std::uint64_t limit)
 {
     const ColliderBody& collider = scene.colliders[c];
     const double spacing = static_cast<double>(collider.spacing) * static_cast<double>(scene.particles.spacing);
@@ -43,7 +45,17 @@ std::vector<glm::vec3> sample_collider(const Scene& scene, std::size_t c, const 
     }
     const SurfaceRequest request{
         .method = SurfaceMethod::BlueNoise, .amount = PointSpacing{spacing}, .seed = scene.seed + c};
-    return sample_surface(surface, request).cloud.positions;
+    return sample_surface(surface, request).cloud;
+}
+
+glm::dvec3 center_of(const BodyShape& shape)
+{
+    return std::visit(Overloaded{
+                          [](const BlockShape& block) { return 0.5 * (glm::dvec3(block.min) + glm::dvec3(block.max)); },
+                          [](const SphereShape& ball) { return glm::dvec3(ball.center); },
+                          [](const MeshShape& mesh) { return glm::dvec3(mesh.position); },
+                      },
+                      shape);
 }
 
 bool is_inside_out(const TriangleMesh& mesh)
@@ -81,20 +93,23 @@ std::shared_ptr<const Solid> inside_of(const Scene& scene, std::size_t c,
 
 } // namespace
 
-std::vector<ColliderSamples> sample_colliders(const Scene& scene, std::uint64_t limit)
+std::vector<ColliderSamples> sample_colliders(const Scene& scene, double depth, std::uint64_t limit)
 {
     const Aabb domain{scene.domain.min, scene.domain.max};
+    const Aabb open{domain.min + static_cast<float>(depth), domain.max - static_cast<float>(depth)};
     std::vector<ColliderSamples> samples;
     std::uint64_t total = 0;
     for (std::size_t c = 0; c < scene.colliders.size(); ++c) {
         const ColliderBody& collider = scene.colliders[c];
         const std::variant<TriangleMesh, CloudSurface> surface = placed_surface(collider.shape);
-        std::vector<glm::vec3> points =
+        const PointCloud cloud =
             std::visit([&](const auto& each) { return sample_collider(scene, c, each, limit); }, surface);
         Aabb box;
-        for (const glm::vec3& x : points) {
+        for (const glm::vec3& x : cloud.positions) {
             box.extend(x);
         }
+        std::shared_ptr<const Solid> inside = inside_of(scene, c, surface);
+        std::vector<glm::vec3> points = inside != nullptr ? sink_samples(cloud, *inside, depth, open) : cloud.positions;
         std::erase_if(points, [&](const glm::vec3& x) { return !domain.contains(x); });
         if (points.empty()) {
             throw input_error("{}: the surface of collider.{} lies outside the domain: in [{:.4g}, {:.4g}, {:.4g}] to "
@@ -103,7 +118,7 @@ std::vector<ColliderSamples> sample_colliders(const Scene& scene, std::uint64_t 
                               scene.name, c, box.min.x, box.min.y, box.min.z, box.max.x, box.max.y, box.max.z);
         }
         total += points.size();
-        samples.push_back({std::move(points), inside_of(scene, c, surface)});
+        samples.push_back({std::move(points), center_of(collider.shape), std::move(inside)});
     }
     if (total > limit) {
         throw input_error("{}: the colliders need {} boundary particles, more than the device can hold, {}: choose a "

@@ -23,6 +23,10 @@ namespace meltpoint {
 
 namespace {
 
+// Spacings: fluid that has flowed rests so much nearer to a plane of boundary particles than a lattice would. Measured
+// on settled blue noise: 0.03, 0.05 and 0.04 at H = 2, 2.6 and 3 d.
+constexpr double settled = 0.04;
+
 /// Fluid `f` of the scene as blue noise, relaxed as its kernel and the domain's walls will see it.
 VolumeSamples sample_blue_noise(const Scene& scene, std::size_t f, const Solid& solid)
 {
@@ -171,10 +175,12 @@ SceneParticles make_scene_particles(const Scene& scene, std::uint64_t limit)
     }
 
     SceneParticles result;
-    const std::vector<ColliderSamples> colliders = sample_colliders(scene, limit);
     const std::uint32_t kernel = scene.kernel == SphKernel::Wendland ? shared::KERNEL_WENDLAND : shared::KERNEL_PAPER;
     const double support_ratio = static_cast<double>(scene.particles.support_ratio);
-    const auto clearance = static_cast<float>(boundary_distance(kernel, support_ratio) * spacing);
+    const double distance = boundary_distance(kernel, support_ratio);
+    const auto clearance = static_cast<float>(distance * spacing);
+    // Fluid ends half a spacing from its outermost particles: there the surface shall be.
+    const std::vector<ColliderSamples> colliders = sample_colliders(scene, (distance - 0.5 - settled) * spacing, limit);
     TakenSpace taken;
     for (std::size_t c = 0; c < colliders.size(); ++c) {
         taken.add(fmt::format("collider.{}", c), colliders[c], clearance);
@@ -200,6 +206,9 @@ SceneParticles make_scene_particles(const Scene& scene, std::uint64_t limit)
         add_fluid(result.particles, scene.fluids[f], samples, materials.of_fluid[f]);
     }
     for (std::size_t c = 0; c < colliders.size(); ++c) {
+        result.colliders.push_back({.first_id = static_cast<std::uint32_t>(result.particles.size()),
+                                    .points = colliders[c].points,
+                                    .center = colliders[c].center});
         add_boundary(result.particles, colliders[c].points, materials.of_collider[c]);
     }
     if (result.particles.size() > limit) {

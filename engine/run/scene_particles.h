@@ -9,9 +9,17 @@
 
 namespace meltpoint {
 
+/// The boundary particles of a collider.
+struct ColliderParticles {
+    std::uint32_t first_id = 0;    ///< they have consecutive ids
+    std::vector<glm::vec3> points; ///< where they lie, by id, m
+    glm::dvec3 center{0.0};        ///< of the box around the collider's shape, m
+};
+
 struct SceneParticles {
-    ParticleSet particles;          ///< fluids in the order of the file, then colliders
-    std::vector<std::string> notes; ///< sentences: fluid left out because its place was taken
+    ParticleSet particles;                    ///< fluids in the order of the file, then colliders
+    std::vector<std::string> notes;           ///< sentences: fluid left out because its place was taken
+    std::vector<ColliderParticles> colliders; ///< for each Scene::colliders
 };
 
 /// The particles of a scene at time 0: shapes filled, masses from rest density and measured volume, velocities set;

@@ -3,7 +3,6 @@
 #include <utility>
 
 #include "run/fluid_settings.h"
-#include "run/scene_particles.h"
 
 namespace meltpoint {
 
@@ -11,8 +10,10 @@ StartedScene start_scene(const gpu::Context& context, const Scene& scene)
 {
     SceneParticles start = make_scene_particles(scene, sim::Simulation::particle_limit(context));
     const FluidSettings settings = fluid_settings(scene, start.particles);
-    StartedScene started{
-        .simulation = std::nullopt, .params = settings.simulation.params, .warnings = std::move(start.notes)};
+    StartedScene started{.simulation = std::nullopt,
+                         .params = settings.simulation.params,
+                         .warnings = std::move(start.notes),
+                         .colliders = std::move(start.colliders)};
     started.warnings.insert(started.warnings.end(), settings.warnings.begin(), settings.warnings.end());
     if (start.particles.size() > 0) {
         started.simulation.emplace(context, start.particles, settings.simulation);

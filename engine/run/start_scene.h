@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "gpu/context.h"
+#include "run/scene_particles.h"
 #include "scene/scene.h"
 #include "sim/simulation.h"
 
@@ -15,6 +16,7 @@ struct StartedScene {
     std::optional<sim::Simulation> simulation; ///< none in a scene of surfaces alone
     shared::SphParams params;                  ///< simulation->params(), where there is one
     std::vector<std::string> warnings;         ///< sentences: what FluidSettings and SceneParticles say
+    std::vector<ColliderParticles> colliders;  ///< where the scene's are among its particles
 };
 
 /// A scene at time 0, ready to be advanced: its shapes filled with particles (make_particles), automatic values

@@ -59,8 +59,14 @@ void Dfsph::record_step(gpu::Commands& commands, const Fluid& fluid, std::uint32
     record_solve(commands, fluid, shared::SOLVE_DIVERGENCE);
     record_forces(commands, fluid.kernels, fluid.params, fluid.particles, fluid.grid);
     fluid.time.record(commands, fluid.params, fluid.particles);
+    if (fluid.boundary_forces != nullptr) { // now that it is known how long the forces act
+        fluid.boundary_forces->record_forces(commands, fluid);
+    }
     record_kick(commands, fluid.kernels, fluid.params, fluid.particles, 1.0f);
     record_solve(commands, fluid, shared::SOLVE_DENSITY);
+    if (fluid.boundary_forces != nullptr) {
+        fluid.boundary_forces->record_impulses(commands, fluid, warm_start_);
+    }
     record_drift(commands, fluid, step);
 }
 

@@ -14,7 +14,7 @@ public:
 
     void record_start(gpu::Commands& commands, const Fluid& fluid) override;
     void record_step(gpu::Commands& commands, const Fluid& fluid, std::uint32_t step) override;
-    [[nodiscard]] std::uint32_t scopes() const override { return 11; }
+    [[nodiscard]] std::uint32_t scopes() const override { return 13; }
     [[nodiscard]] std::uint64_t device_bytes() const override;
     [[nodiscard]] const gpu::Buffer* solves() const override { return &solves_; }
 
@@ -35,6 +35,7 @@ public:
     void record_drift(gpu::Commands& commands, const Fluid& fluid, std::uint32_t step);
 
     [[nodiscard]] const gpu::Buffer& corrected_velocity() const { return corrected_velocity_; }
+    /// By shared::SOLVE_*, of the last solves: the impulses that have acted, and dt times these, over gradient_scale.
     [[nodiscard]] const gpu::Buffer& warm_start() const { return warm_start_; }
 
 private:

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstddef>
 #include <limits>
+#include <stdexcept>
 #include <string_view>
 
 #include "core/error.h"
@@ -70,7 +71,7 @@ std::uint64_t Simulation::particle_limit(const gpu::DeviceInfo& device)
 
 Simulation::Simulation(const gpu::Context& context, const ParticleSet& particles, const SimulationSettings& settings)
     : context_(&context), params_(complete_params(settings.params, checked(context, particles).size())),
-      kernels_(context, settings.options), solver_(make_solver(context, settings.options, params_)),
+      options_(settings.options), kernels_(context, options_), solver_(make_solver(context, settings.options, params_)),
       particles_(make_particle_buffers(context, params_.particle_count)),
       grid_(context, params_.particle_count, params_.grid_size),
       params_buffer_(gpu::make_buffer<shared::SphParams>(context, 1, "params")),
@@ -155,6 +156,7 @@ void Simulation::check_status(const shared::Status& status) const
 std::uint64_t Simulation::device_bytes() const
 {
     std::uint64_t sum = solver_->device_bytes();
+    sum += boundary_forces_ != nullptr ? boundary_forces_->reactions().size() : 0;
     for (const gpu::Buffer* buffer : {&particles_.id,
                                       &particles_.attributes,
                                       &particles_.position,
@@ -230,6 +232,40 @@ std::optional<std::array<Simulation::SolveStatistics, shared::SOLVES>> Simulatio
                          .unconverged = found[i].unconverged};
     }
     return statistics;
+}
+
+void Simulation::measure_boundary_forces()
+{
+    const auto attributes = download().attributes;
+    boundary_forces_ = std::make_unique<BoundaryForces>(*context_, options_, attributes);
+    commands_->begin();
+    boundary_forces_->record_reset(*commands_);
+    commands_->submit();
+    commands_->wait();
+    forces_taken_at_ = seconds_;
+}
+
+Simulation::BoundaryForceMeans Simulation::take_boundary_forces()
+{
+    if (boundary_forces_ == nullptr) {
+        throw std::logic_error("take_boundary_forces: nothing measures them");
+    }
+    const auto count = boundary_forces_->count();
+    const auto sums = gpu::download<shared::Reaction>(*context_, boundary_forces_->reactions(), count);
+    commands_->begin();
+    boundary_forces_->record_reset(*commands_);
+    commands_->submit();
+    commands_->wait();
+    const double seconds = seconds_ - forces_taken_at_;
+    forces_taken_at_ = seconds_;
+    BoundaryForceMeans means{.first_id = boundary_forces_->first_id(),
+                             .pressure = std::vector<glm::dvec3>(count, glm::dvec3(0.0)),
+                             .friction = std::vector<glm::dvec3>(count, glm::dvec3(0.0))};
+    for (std::size_t i = 0; i < count && seconds > 0.0; ++i) {
+        means.pressure[i] = glm::dvec3(sums[i].pressure) / seconds;
+        means.friction[i] = glm::dvec3(sums[i].friction) / seconds;
+    }
+    return means;
 }
 
 void Simulation::enable_timings()

@@ -74,6 +74,18 @@ public:
     /// By shared::SOLVE_*; empty where nothing is solved for. Waits, and starts to count anew.
     [[nodiscard]] std::optional<std::array<SolveStatistics, shared::SOLVES>> take_solve_statistics();
 
+    /// The mean forces of fluid on boundary particles over a time: the reactions to theirs on it.
+    struct BoundaryForceMeans {
+        std::uint32_t first_id = 0;       ///< of boundary particles
+        std::vector<glm::dvec3> pressure; ///< N, by id from first_id on
+        std::vector<glm::dvec3> friction; ///< N, likewise
+    };
+    /// Sums up from now on what fluid does to boundary particles: another pass a step, or two, around them.
+    void measure_boundary_forces();
+    /// Their means since the last call, or since they are measured; zero where no time has passed. Waits. Throws
+    /// std::logic_error where they are not measured.
+    [[nodiscard]] BoundaryForceMeans take_boundary_forces();
+
     /// Takes timestamps of every pass from now on (about 40 us each on software devices).
     void enable_timings();
     /// Device times of the passes of the last advance(), summed over its last submission.
@@ -96,10 +108,14 @@ private:
     Readback submit_steps(std::uint32_t steps);
     void check_status(const shared::Status& status) const;
     [[nodiscard]] std::uint32_t steps_a_submission() const;
-    [[nodiscard]] Fluid fluid() { return {kernels_, params_buffer_, particles_, grid_, status_, time_}; }
+    [[nodiscard]] Fluid fluid()
+    {
+        return {kernels_, params_buffer_, particles_, grid_, status_, time_, boundary_forces_.get()};
+    }
 
     const gpu::Context* context_;
     shared::SphParams params_;
+    FluidOptions options_;
     FluidKernels kernels_;
     std::unique_ptr<Solver> solver_;
     ParticleBuffers particles_;
@@ -108,11 +124,13 @@ private:
     gpu::Buffer status_;
     gpu::Buffer readback_; ///< Readback
     TimeControl time_;
+    std::unique_ptr<BoundaryForces> boundary_forces_;
     std::unique_ptr<gpu::Commands> commands_;
     std::uint64_t step_ = 0;
     double seconds_ = 0.0;              ///< since the start
     double wanted_seconds_ = 0.0;       ///< of all calls of advance_by
     std::uint64_t solves_taken_at_ = 0; ///< step of the last take_solve_statistics
+    double forces_taken_at_ = 0.0;      ///< s, of the last take_boundary_forces
 };
 
 } // namespace meltpoint::sim

@@ -6,6 +6,7 @@
 #include "gpu/commands.h"
 #include "particle_buffers/particle_buffers.h"
 #include "shared/solve.h"
+#include "sim/boundary_forces.h"
 #include "sim/fluid_kernels.h"
 #include "sim/neighbor_grid.h"
 #include "sim/time_control.h"
@@ -20,6 +21,7 @@ struct Fluid {
     NeighborGrid& grid;
     const gpu::Buffer& status; ///< shared::Status
     TimeControl& time;
+    BoundaryForces* boundary_forces = nullptr; ///< null where nobody measures them
 };
 
 /// How a fluid gets its pressure and takes a step: the one interface of all solvers.

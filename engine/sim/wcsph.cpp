@@ -83,6 +83,9 @@ void Wcsph::record_step(gpu::Commands& commands, const Fluid& fluid, std::uint32
     record_sort(commands, fluid.kernels, fluid.params, fluid.particles, fluid.grid);
     record_density(commands, fluid.kernels, fluid.params, fluid.particles, fluid.grid);
     record_forces(commands, fluid.kernels, fluid.params, fluid.particles, fluid.grid);
+    if (fluid.boundary_forces != nullptr) {
+        fluid.boundary_forces->record_forces(commands, fluid);
+    }
     record_kick(commands, fluid.kernels, fluid.params, fluid.particles);
 }
 

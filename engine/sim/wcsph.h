@@ -39,7 +39,7 @@ class Wcsph : public Solver {
 public:
     void record_start(gpu::Commands& commands, const Fluid& fluid) override;
     void record_step(gpu::Commands& commands, const Fluid& fluid, std::uint32_t step) override;
-    [[nodiscard]] std::uint32_t scopes() const override { return 8; }
+    [[nodiscard]] std::uint32_t scopes() const override { return 9; }
     [[nodiscard]] std::uint64_t device_bytes() const override { return 0; }
 };
 

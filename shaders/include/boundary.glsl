@@ -20,4 +20,11 @@ Tile without_boundary(Tile tile)
     return tile;
 }
 
+// The tile; where it has no boundary particles, whose reaction alone is wanted, without images to walk.
+Tile only_boundary(Tile tile)
+{
+    tile.images = count_boundary(tile) == 0u ? 0u : tile.images;
+    return tile;
+}
+
 #endif

@@ -26,8 +26,7 @@ void main()
         return;
     }
     vec4 own[TILE];
-    Tile tile = load_tile(invocation_index(), own);
-    tile.images = count_boundary(tile) == 0u ? 0u : tile.images;
+    Tile tile = only_boundary(load_tile(invocation_index(), own));
 
     KernelSize size = kernel_size(params.support_radius);
     float sum[TILE];

@@ -102,15 +102,17 @@ void main()
             float change = params.dt * rest_volume * params.gradient_scale * rate[k];      // of it, in this step
             float excess = push.solve == SOLVE_DENSITY ? compression - 1.0 + change : (compression > DIVERGENCE_FILL ? change : 0.0);
 
+            // The impulses that the velocities have in them: those of a solve that ends here are what has acted.
             float unit = push.solve == SOLVE_DENSITY ? params.dt : 1.0;
-            float warm = its_interaction.x;
+            float acted = its_interaction.x;
             if (push.iteration == 0u) {
-                warm = excess > 0.0 ? WARM_START * warm_start[i][push.solve] / unit : 0.0;
+                acted = excess > 0.0 ? WARM_START * warm_start[i][push.solve] / unit : 0.0;
+            } else {
+                warm_start[i][push.solve] = acted * unit;
             }
             float response = params.solve_relaxation * params.gradient_scale * its_interaction.w / (params.dt * rest_volume);
-            its_interaction.x = max(warm + response * excess, 0.0);
+            its_interaction.x = max(acted + response * excess, 0.0);
             interaction[i] = its_interaction;
-            warm_start[i][push.solve] = its_interaction.x * unit;
             error += vec2(max(excess, 0.0), 1.0);
         }
     }

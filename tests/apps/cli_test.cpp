@@ -76,7 +76,7 @@ TEST_F(Cli, HelpOfEverySubcommandTellsUnitsAndDefaults)
     const std::map<std::string, Arguments> expected{
         {"render",
          {"--out", "[out/NAME", "--frames", "time.frames", "--size", "in pixels", "--video", "--particles", "--stats",
-          "SI units", "--device", "--set", "--validate", "--force"}},
+          "--forces", "SI units", "--device", "--set", "--validate", "--force"}},
         {"compare", {"--steps", "[50]", "--json", "--device", "--set", "--validate"}},
         {"follow", {"--particle", "[0]", "--steps", "[100]", "--device", "--set", "--validate"}},
         {"info", {"--device", "--json"}}};
@@ -190,6 +190,9 @@ TEST_F(Cli, BadInputIsOneSentenceAndExitsWithTwo)
         {{"drop", "--stats", "x.mp4", "--video", "./x.mp4"}, "another output of this run has that name"},
         {{"drop", "--stats", "out/drop/frame_0003.png"}, "another output of this run has that name"},
         {{"drop", "--stats", "folder"}, "folder is a folder"},
+        {{"teapot_pour", "--stats", "x.csv", "--forces", "./x.csv"}, "another output of this run has that name"},
+        {{"teapot_pour", "--forces", "x.mp4", "--video", "x.mp4"}, "--forces x.mp4: another output of this run"},
+        {{"drop", "--forces", "x.csv"}, "--forces x.csv: the scene has no colliders"},
         {{"drop", "--stats", "/dev/full", "--force"}, "not a file"},
     };
     for (const auto& [more, part] : cases) {
@@ -375,6 +378,34 @@ TEST_F(Cli, IterationsOfSolvedPressureAreInTheStats)
                                                "solve.density_error=1e-6", "--set", "time.frames=20"}));
     ASSERT_EQ(short_of.exit_code, 0);
     EXPECT_NE(short_of.err.find("density solves ended at 1 iterations"), std::string::npos) << short_of.err;
+}
+
+TEST_F(Cli, ForcesHaveARowAFrameAndCollider)
+{
+    test::write_bytes(path("pool.toml"),
+                      "[domain]\nmin = [0, 0, 0]\nmax = [0.6, 0.8, 0.6]\n[particles]\nspacing = 0.05\n"
+                      "[[fluid]]\nshape = \"block\"\nmin = [0, 0.1, 0]\nmax = [0.6, 0.4, 0.6]\n"
+                      "[[collider]]\nshape = \"block\"\nmin = [0, 0.05, 0]\nmax = [0.6, 0.05, 0.6]\n"
+                      "[[collider]]\nshape = \"sphere\"\ncenter = [0.3, 0.7, 0.3]\nradius = 0.08\n");
+    for (const std::string solver : {"wcsph", "dfsph"}) {
+        const Result result = run({"render", "pool.toml", "--out", solver, "--size", "96x54", "--frames", "6", "--set",
+                                   "solver=" + solver, "--forces", solver + ".csv"});
+        ASSERT_EQ(result.exit_code, 0) << result.err;
+        const std::vector<std::string> lines = split(bytes(solver + ".csv"), '\n');
+        ASSERT_EQ(lines.size(), 14u); // a header, two rows for each of six frames, nothing after the last newline
+        EXPECT_EQ(lines[0], "frame,time,collider,force_x,force_y,force_z,pressure_x,pressure_y,pressure_z,friction_x,"
+                            "friction_y,friction_z,torque_x,torque_y,torque_z");
+        EXPECT_EQ(lines[1], "0,0,0,,,,,,,,,,,,");
+        const std::vector<std::string> plate = split(lines[11], ',');
+        ASSERT_EQ(plate.size(), 15u);
+        EXPECT_EQ(plate[0], "5");
+        EXPECT_EQ(plate[2], "0");
+        EXPECT_LT(std::stod(plate[4]), -100.0); // N: water weighs on it, on both sides of rest
+        EXPECT_EQ(plate[4], plate[7]);
+        const std::vector<std::string> ball = split(lines[12], ',');
+        EXPECT_EQ(ball[2], "1");
+        EXPECT_EQ(std::stod(ball[4]), 0.0); // in the air
+    }
 }
 
 TEST_F(Cli, StatsHaveARowAFrame)

@@ -49,5 +49,30 @@ TEST_F(Column, WithoutViscosityStaysStill)
     expect_still(StillColumn(context(), 8, 20, 0.001));
 }
 
+// Water 1 m deep with solved pressure: no sound, nothing to settle first.
+TEST_F(Column, WithSolvedPressureStaysStill)
+{
+    constexpr std::uint32_t layers = 20;
+    const double height = layers * static_cast<double>(test_spacing);
+    for (const double support_ratio : {2.0, 3.0}) {
+        SCOPED_TRACE(support_ratio);
+        const sim::SimulationSettings water =
+            solved_box_settings(support_ratio, {8, layers + 6, 8}, std::sqrt(test_gravity * height), 0.001);
+        sim::Simulation simulation(context(), fluid_in_corner({8, layers, 8}), water);
+        std::vector<double> energy;
+        for (int i = 0; i < 100; ++i) {
+            simulation.advance_by(0.1);
+            const ParticleSet set = simulation.download();
+            const double mass = reference::total_mass(reference::from_particle_set(set));
+            energy.push_back(kinetic_energy(set) / (mass * test_gravity * height));
+            EXPECT_LE(energy.back(), 1e-4) << "t = " << simulation.time();
+        }
+        const auto mean = [&](int first, int last) {
+            return std::accumulate(energy.begin() + first, energy.begin() + last, 0.0) / (last - first);
+        };
+        EXPECT_LE(mean(75, 100), std::max(1.1 * mean(50, 75), 1e-6)); // no trend
+    }
+}
+
 } // namespace
 } // namespace meltpoint

@@ -28,6 +28,25 @@ inline sim::SimulationSettings box_settings(std::uint32_t kernel, double support
     return settings;
 }
 
+/// The same for solved pressure, in steps that the device chooses: errors and bounds are the defaults of a scene.
+inline sim::SimulationSettings solved_box_settings(double support_ratio, const glm::uvec3& box, double expected_speed,
+                                                   double viscosity)
+{
+    sim::SimulationSettings settings =
+        box_settings(shared::KERNEL_WENDLAND, support_ratio, box, expected_speed, viscosity);
+    settings.options.solver = shared::SOLVER_DFSPH;
+    shared::SphParams& params = settings.params;
+    params.adaptive_dt = 1;
+    params.cfl_length = 0.4f * test_spacing;
+    params.cfl_speed = 0.0f;
+    params.longest_dt = 5e-3f;
+    params.longest_move = 0.5f * params.support_radius;
+    params.density_error = 5e-4f;
+    params.divergence_error = 1e-3f;
+    params.max_iterations = 60;
+    return settings;
+}
+
 /// Fluid in the corner of the box, a lattice that lies half a spacing off the walls: at rest density everywhere.
 inline ParticleSet fluid_in_corner(const glm::uvec3& size)
 {

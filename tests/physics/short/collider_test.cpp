@@ -120,6 +120,34 @@ TEST_F(Collider, ASampledPlateDoesNotLeak)
     }
 }
 
+// At 5 m/s, in both solvers: onto a plate one particle thick, and onto a solid ball that the fluid flows around.
+TEST_F(Collider, NothingLeaksThroughWhatIsHitAtFiveMetersASecond)
+{
+    for (const Solver solver : {Solver::Wcsph, Solver::Dfsph}) {
+        SCOPED_TRACE(solver == Solver::Dfsph ? "dfsph" : "wcsph");
+        Scene scene = tank(SphKernel::Wendland);
+        scene.solver = solver;
+        scene.physics.viscosity = solver == Solver::Dfsph ? 0.001f : 0.1f;
+        scene.fluids.push_back(
+            {.shape = BlockShape{test_spacing * glm::vec3(4, 14, 4), test_spacing * glm::vec3(12, 22, 12)},
+             .velocity = {0.0f, -5.0f, 0.0f}});
+        Scene plate = scene;
+        plate.colliders.push_back(
+            {.shape = BlockShape{{0.0f, level, 0.0f}, {scene.domain.max.x, level, scene.domain.max.z}},
+             .spacing = coarsest});
+        EXPECT_EQ(count_leaks(context(), plate, [](const glm::vec3& x) { return x.y < level; }), 0u);
+
+        const glm::vec3 center = test_spacing * glm::vec3(8.0f, 8.0f, 8.0f);
+        const float radius = 4.0f * test_spacing;
+        scene.colliders.push_back({.shape = SphereShape{center, radius}, .spacing = coarsest});
+        EXPECT_EQ(count_leaks(context(), scene,
+                              [&](const glm::vec3& x) {
+                                  return glm::distance(x, center) < radius - 0.6f * test_spacing; // boundary particles
+                              }),
+                  0u);
+    }
+}
+
 // A hollow ball in the air, half filled: the shell is curved, and nothing else holds the fluid.
 TEST_F(Collider, AShellHoldsFluid)
 {

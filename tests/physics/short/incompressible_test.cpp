@@ -5,26 +5,7 @@
 namespace meltpoint {
 namespace {
 
-class Incompressible : public GpuTest {
-protected:
-    static sim::SimulationSettings settings(double support_ratio, const glm::uvec3& box, double expected_speed,
-                                            double viscosity)
-    {
-        sim::SimulationSettings settings =
-            box_settings(shared::KERNEL_WENDLAND, support_ratio, box, expected_speed, viscosity);
-        settings.options.solver = shared::SOLVER_DFSPH;
-        shared::SphParams& params = settings.params;
-        params.adaptive_dt = 1;
-        params.cfl_length = 0.4f * test_spacing;
-        params.cfl_speed = 0.0f;
-        params.longest_dt = 5e-3f;
-        params.longest_move = 0.5f * params.support_radius;
-        params.density_error = 5e-4f;
-        params.divergence_error = 1e-3f;
-        params.max_iterations = 60;
-        return settings;
-    }
-};
+class Incompressible : public GpuTest {};
 
 // Water as thin as it is, in steps ten times as long as those of weakly compressible SPH.
 TEST_F(Incompressible, DamBreakKeepsItsVolumeAndNeverGainsEnergy)
@@ -33,7 +14,7 @@ TEST_F(Incompressible, DamBreakKeepsItsVolumeAndNeverGainsEnergy)
         SCOPED_TRACE(support_ratio);
         const double height = 16 * static_cast<double>(test_spacing);
         const double speed = std::sqrt(2.0 * test_gravity * height);
-        const sim::SimulationSettings water = settings(support_ratio, {30, 24, 6}, speed, 0.001);
+        const sim::SimulationSettings water = solved_box_settings(support_ratio, {30, 24, 6}, speed, 0.001);
         sim::Simulation simulation(context(), fluid_in_corner({10, 16, 6}), water);
         const double start = mechanical_energy(simulation.download(), water);
         double lowest = start;
@@ -63,7 +44,8 @@ TEST_F(Incompressible, StillWaterStaysAtRestAndBearsItsWeight)
 {
     constexpr std::uint32_t layers = 12;
     const double height = layers * static_cast<double>(test_spacing);
-    const sim::SimulationSettings water = settings(2.0, {8, layers + 6, 8}, std::sqrt(test_gravity * height), 0.001);
+    const sim::SimulationSettings water =
+        solved_box_settings(2.0, {8, layers + 6, 8}, std::sqrt(test_gravity * height), 0.001);
     sim::Simulation simulation(context(), fluid_in_corner({8, layers, 8}), water);
     double mass = 0.0;
     for (int i = 0; i < 10; ++i) {
@@ -85,7 +67,7 @@ TEST_F(Incompressible, StillWaterStaysAtRestAndBearsItsWeight)
 
 TEST_F(Incompressible, RerunsGiveTheSameBits)
 {
-    const sim::SimulationSettings water = settings(2.0, {20, 20, 8}, 3.0, 0.001);
+    const sim::SimulationSettings water = solved_box_settings(2.0, {20, 20, 8}, 3.0, 0.001);
     ParticleSet first;
     for (int run = 0; run < 3; ++run) {
         sim::Simulation simulation(context(), fluid_in_corner({8, 12, 8}), water);

@@ -34,7 +34,7 @@ TEST_F(OverlappingStart, IsResolvedNotExploded)
     for (const SphKernel kernel : {SphKernel::Wendland, SphKernel::Paper}) {
         scene.kernel = kernel;
         scene.physics.viscosity = kernel == SphKernel::Paper ? 2.0f : 0.1f;
-        const auto [start, notes] = make_scene_particles(scene, 1'000'000);
+        const auto [start, notes, colliders] = make_scene_particles(scene, 1'000'000);
         EXPECT_EQ(notes.size(), 8u); // each fluid in both colliders, and each later one in the first
         const FluidSettings settings = fluid_settings(scene, start);
         double mass = 0.0;
