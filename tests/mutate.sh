@@ -360,8 +360,8 @@ mutation "integrator: a whole kick before the drift" \
 mutation "integrator: no second kick" \
     engine/sim/wcsph.cpp \
     '    record_kick(commands, fluid.kernels, fluid.params, fluid.particles);
-}' \
-    '}' \
+    if (fluid.viscosity' \
+    '    if (fluid.viscosity' \
     conformance_tests 'Steps.FreeFallIsExact'
 mutation "faults: the largest id is reported" \
     shaders/include/watch.glsl \
@@ -719,6 +719,79 @@ mutation "points: a stopped export is committed" \
     'if (!format.write(file, rows, cloud)) {' \
     'if (!format.write(file, rows, cloud) && false) {' \
     unit_tests 'PointCloudExport.StoppedInTheMiddleThePathIsAsItWas'
+
+# --- viscosity that is solved for ---------------------------------------------------------------------------------------
+
+mutation "viscosity solve: pairs drag instead of pulling along their line" \
+    shaders/include/viscous_walk.glsl \
+    'along * dot(relative, offset) * offset' \
+    'along * r2 * relative' \
+    conformance_tests 'States/PassConformance.SolvedViscosity/RandomWendland'
+mutation "viscosity solve: boundary particles pull as fluid does" \
+    shaders/include/viscous_walk.glsl \
+    'bool is_fluid = pj.w > 0.0;' \
+    'bool is_fluid = true;' \
+    conformance_tests 'States/PassConformance.SolvedViscosity/OnAColliderWendland'
+mutation "viscosity solve: images are not reflected back" \
+    shaders/include/viscous_walk.glsl \
+    'total[k].force += signs * force[k];' \
+    'total[k].force += force[k];' \
+    conformance_tests 'States/PassConformance.SolvedViscosity/InTheCornersWendland'
+mutation "viscosity solve: the walls do not drag" \
+    shaders/include/viscous_walk.glsl \
+    'total[k].force -= drag * signs * p[k];' \
+    '' \
+    conformance_tests 'States/PassConformance.SolvedViscosity/LatticeOnTheFloorWendland'
+mutation "viscosity solve: blocks without their off-diagonal" \
+    shaders/sim/viscosity_residual.comp \
+    'ViscosityBlock(cofactors / determinant, off_cofactors / determinant)' \
+    'ViscosityBlock(cofactors / determinant, vec3(0.0))' \
+    conformance_tests 'States/PassConformance.SolvedViscosity/RandomWendland'
+mutation "viscosity solve: the start is taken from the unsorted order" \
+    shaders/sim/viscosity_start.comp \
+    'before[order[i]]' \
+    'before[i]' \
+    conformance_tests 'States/PassConformance.SolvedViscosity/RandomWendland'
+mutation "viscosity solve: directions are not conjugate" \
+    shaders/sim/viscosity_direction.comp \
+    'viscosity.turn * direction[i].xyz' \
+    '0.5 * viscosity.turn * direction[i].xyz' \
+    conformance_tests 'States/PassConformance.SolvedViscosity/RandomWendland'
+mutation "viscosity solve: steps along the direction are 20 % short" \
+    shaders/sim/viscosity_product.comp \
+    'viscosity.residual / sum' \
+    '0.8 * viscosity.residual / sum' \
+    conformance_tests 'States/PassConformance.SolvedViscosity/RandomWendland'
+mutation "viscosity solve: it ends one iteration early" \
+    shaders/include/viscosity_solve.glsl \
+    'bool ends = met || iteration' \
+    'bool ends = met || iteration + 37u' \
+    conformance_tests 'States/PassConformance.SolvedViscosity/RandomWendland'
+mutation "viscosity solve: what it did is not kept for the next step" \
+    shaders/sim/viscosity_end.comp \
+    'vec4(u / params.dt, 0.0)' \
+    'vec4(u, 0.0)' \
+    conformance_tests 'Steps.StepsWithSolvedViscosityAreTheTwins'
+mutation "viscosity solve: fluid 20 % too thick" \
+    engine/particles/sph_kernel.cpp \
+    '{.scale = 5.0 /' \
+    '{.scale = 6.0 /' \
+    physics_short_tests 'ViscousDecay.SolvedForHasTheExactRateInStepsOfAnyLength'
+mutation "viscosity solve: a lattice is the same along all directions without the taper" \
+    engine/particles/sph_kernel.cpp \
+    'mean.x - shear.x' \
+    '0.0 * shear.x' \
+    unit_tests 'ReferenceViscosity.IsThatOfTheNavierStokesEquations'
+mutation "viscosity solve: colliders feel the friction of the velocities before it" \
+    engine/sim/solver.cpp \
+    'after_viscosity == (fluid.viscosity != nullptr)' \
+    '!after_viscosity' \
+    physics_short_tests 'ViscousDecay.FrictionIsTheSameExplicitOrSolvedFor'
+mutation "viscosity: the force stays where it is solved for" \
+    shaders/sim/forces.comp \
+    'SOLVED_VISCOSITY ? 0.0 : interaction_j.z' \
+    'interaction_j.z' \
+    conformance_tests 'States/PassConformance.SolvedViscosity/RandomWendland'
 
 # --- the machinery ------------------------------------------------------------------------------------------------------
 

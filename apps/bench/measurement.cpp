@@ -151,6 +151,10 @@ std::unique_ptr<Yardstick> make_yardstick(const ParticleSet& state, const shared
         log_warning("the yardstick is weakly compressible: this scene is measured without it");
         return nullptr;
     }
+    if (options.implicit_viscosity) {
+        log_warning("the yardstick's viscosity is explicit: this scene is measured without it");
+        return nullptr;
+    }
     if (std::ranges::any_of(state.attributes, shared::is_boundary)) {
         log_warning("the yardstick has no colliders: this scene is measured without it");
         return nullptr;

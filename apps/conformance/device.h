@@ -47,7 +47,10 @@ struct Device {
 [[nodiscard]] inline reference::Settings reference_settings(const shared::SphParams& params,
                                                             const sim::SimulationSettings& settings)
 {
-    return {.kernel = settings.options.kernel, .params = params, .solver = settings.options.solver};
+    return {.kernel = settings.options.kernel,
+            .params = params,
+            .solver = settings.options.solver,
+            .implicit_viscosity = settings.options.implicit_viscosity};
 }
 
 } // namespace meltpoint::conformance

@@ -10,6 +10,7 @@
 #include "conformance/device.h"
 #include "conformance/dfsph_comparison.h"
 #include "conformance/relative_error.h"
+#include "conformance/viscosity_comparison.h"
 #include "gpu/transfer.h"
 #include "reference/boundary.h"
 #include "reference/cells.h"
@@ -234,6 +235,11 @@ std::vector<PassError> compare_passes(const gpu::Context& context, const Particl
     }
     if (settings.options.solver == shared::SOLVER_DFSPH) {
         for (PassError& error : compare_dfsph_passes(device, settings.options, twin_settings, twin, neighbors)) {
+            errors.push_back(std::move(error));
+        }
+    }
+    if (settings.options.implicit_viscosity) {
+        for (PassError& error : compare_viscosity_passes(device, settings.options, twin_settings, twin, neighbors)) {
             errors.push_back(std::move(error));
         }
     }

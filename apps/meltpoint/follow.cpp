@@ -240,6 +240,10 @@ int follow(const FollowOptions& options)
         throw input_error("--particle {}: {} has particles 0 to {}", options.particle, scene.name, initial.size() - 1);
     }
     const sim::SimulationSettings settings = with_fixed_steps(fluid_settings(scene, initial).simulation);
+    if (settings.options.implicit_viscosity) {
+        throw input_error("{}: follow knows explicit viscosity alone (--set physics.viscosity_model=explicit)",
+                          scene.name);
+    }
     print_start(scene, initial, options.particle);
 
     sim::Simulation simulation(context, initial, settings);

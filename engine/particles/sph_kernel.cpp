@@ -80,6 +80,12 @@ double viscosity_shape(std::uint32_t kernel, double q)
     return kernel == shared::KERNEL_PAPER ? u : u * u * u;
 }
 
+double pair_viscosity_shape(double taper, double q)
+{
+    const double u = std::max(1.0 - q, 0.0);
+    return u * (1.0 + taper * u);
+}
+
 double color_gradient_shape(std::uint32_t kernel, double q)
 {
     if (q >= 1.0) {
@@ -166,6 +172,26 @@ double largest_jacobi_eigenvalue(std::uint32_t kernel, double support_radius, do
     return largest;
 }
 
+PairViscosity pair_viscosity(double support_radius, double spacing)
+{
+    const double ratio = checked_support_ratio(support_radius, spacing);
+    // Of the shapes u and u^2: 1/6 sum r^2 L, and 5/2 sum x^2 y^2 / r^2 L, which a shear along the axes feels. In the
+    // continuum they are equal.
+    glm::dvec2 mean(0.0);
+    glm::dvec2 shear(0.0);
+    for_each_lattice_site(ratio, [&](const glm::dvec3& x, double r) {
+        if (r > 0.0) {
+            const double u = 1.0 - r / ratio;
+            mean += r * r / 6.0 * glm::dvec2(u, u * u);
+            shear += 2.5 * std::pow(x.x * x.y / r, 2) * glm::dvec2(u, u * u);
+        }
+    });
+    constexpr double least_taper = -0.5; // then the pull still falls with the distance
+    constexpr double most_taper = 2.0;
+    const double taper = std::clamp((mean.x - shear.x) / (shear.y - mean.y), least_taper, most_taper);
+    return {.scale = 5.0 / (std::pow(spacing, 5) * (mean.x + taper * mean.y)), .taper = taper};
+}
+
 double wall_viscosity_integral(std::uint32_t kernel, double distance, double support_radius)
 {
     if (distance < 0.0) {
@@ -192,6 +218,9 @@ void set_kernel_scales(shared::SphParams& params, std::uint32_t kernel, double s
     params.density_scale = static_cast<float>(scale.density / moments.density);
     params.gradient_scale = static_cast<float>(scale.gradient / moments.gradient);
     params.viscosity_scale = static_cast<float>(scale.viscosity / moments.viscosity);
+    const PairViscosity pairs = pair_viscosity(support_radius, spacing);
+    params.pair_viscosity_scale = static_cast<float>(pairs.scale);
+    params.pair_viscosity_taper = static_cast<float>(pairs.taper);
     params.color_gradient_scale = static_cast<float>(scale.color_gradient / moments.color_gradient);
     params.color_laplacian_scale = static_cast<float>(scale.color_laplacian / moments.color_laplacian);
 

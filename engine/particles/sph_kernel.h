@@ -29,6 +29,10 @@ namespace meltpoint {
 /// lap W = -color Laplacian scale * shape, the Laplacian of the color field's kernel.
 [[nodiscard]] double color_laplacian_shape(std::uint32_t kernel, double q);
 
+/// Of the viscous forces along the line of a pair, solved for: u (1 + taper u) with u = 1 - q, the same for all
+/// kernels.
+[[nodiscard]] double pair_viscosity_shape(double taper, double q);
+
 struct KernelScales {
     double density;         ///< 1/m^3
     double gradient;        ///< 1/m^4
@@ -51,6 +55,19 @@ struct LatticeMoments {
 
 /// support_radius and spacing in meters. Throws Error{Input} unless MIN_SUPPORT_RATIO <= H/d <= MAX_SUPPORT_RATIO.
 [[nodiscard]] LatticeMoments lattice_moments(std::uint32_t kernel, double support_radius, double spacing);
+
+/// The viscous forces of pairs where viscosity is solved for: particle i feels mu V_i V_j scale shape(q) x x^T (v_j -
+/// v_i), x the unit vector from j to i. The scale makes them those of a fluid of viscosity mu (1/2 sum d^3 r^2 L = 3
+/// with L = scale shape / 5; 5 = d + 2, Monaghan 2005, section 9.2). A lattice resists shear along its axes as along
+/// its diagonals only if its fourth moments are isotropic: the taper makes them so, or nearly so where that would take
+/// too odd a shape.
+struct PairViscosity {
+    double scale; ///< 1/m^5
+    double taper;
+};
+
+/// support_radius and spacing in meters. Throws as lattice_moments.
+[[nodiscard]] PairViscosity pair_viscosity(double support_radius, double spacing);
 
 /// The largest eigenvalue of the pressure solves' Jacobi matrix on that lattice, where it is about 3 at H = 2 d and 6
 /// at 3 d: plane waves of pressure are its eigenvectors, with the eigenvalues |sum_j g_j sin(k . x_j)|^2 / sum_j

@@ -8,6 +8,7 @@
 #include "particles/sph_kernel.h"
 #include "reference/density.h"
 #include "reference/integrate.h"
+#include "reference/viscosity.h"
 #include "reference/walls.h"
 
 namespace meltpoint::reference {
@@ -160,6 +161,9 @@ DfsphStep dfsph_step(const Settings& settings, State& state, WarmStarts& warm_st
     const Accelerations a = accelerations(settings, state, neighbors);
     parallel_for(state.size(), [&](std::size_t i) { state.acceleration[i] = a.total[i].value; });
     kick(state, step_length(settings));
+    if (settings.implicit_viscosity) {
+        (void)solve_viscosity(settings, state, neighbors);
+    }
     results[shared::SOLVE_DENSITY] =
         solve(settings, state, neighbors, shared::SOLVE_DENSITY, warm_starts[shared::SOLVE_DENSITY]);
     const double dt2 = step_length(settings) * step_length(settings);

@@ -7,6 +7,7 @@
 
 #include "reference/cells.h"
 #include "reference/forces.h"
+#include "reference/solve_result.h"
 #include "reference/state.h"
 #include "shared/solve.h"
 
@@ -46,13 +47,8 @@ struct ScalarSum {
 /// By shared::SOLVE_*, one number a particle in id order: what first_impulse starts from.
 using WarmStarts = std::array<std::vector<double>, shared::SOLVES>;
 
-struct SolveResult {
-    std::uint32_t iterations = 0;
-    double error = 0.0; ///< mean of the positive excesses of fluid particles
-};
-
-/// A whole solve: changes the state's velocities, and leaves in warm_start the impulses that have changed them. Ends as
-/// sim/dfsph_residual.comp.
+/// A whole solve: changes the state's velocities, and leaves in warm_start the impulses that have changed them. Its error
+/// is the mean of the positive excesses of fluid particles. Ends as sim/dfsph_residual.comp.
 SolveResult solve(const Settings& settings, State& state, const Neighbors& neighbors, std::uint32_t solve,
                   std::vector<double>& warm_start);
 

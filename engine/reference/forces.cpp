@@ -166,9 +166,11 @@ Accelerations accelerations(const Settings& settings, const State& state, const 
             a.pressure[i] = pressure_acceleration(settings, state, neighbors, i);
             a.contact[i] = contact_acceleration(settings, state, i);
         }
-        a.viscosity[i] = viscosity_acceleration(settings, state, neighbors, i);
+        if (!settings.implicit_viscosity) {
+            a.viscosity[i] = viscosity_acceleration(settings, state, neighbors, i);
+            a.wall_viscosity[i] = wall_viscosity_acceleration(settings, state, i);
+        }
         a.tension[i] = tension_acceleration(settings, state, neighbors, i);
-        a.wall_viscosity[i] = wall_viscosity_acceleration(settings, state, i);
         a.total[i].add(glm::dvec3(settings.params.gravity));
         for (const auto* term : {&a.pressure, &a.viscosity, &a.tension, &a.wall_viscosity, &a.contact}) {
             a.total[i].add((*term)[i]);

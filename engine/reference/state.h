@@ -18,6 +18,7 @@ struct Settings {
     std::uint32_t kernel = shared::KERNEL_PAPER;
     shared::SphParams params{};
     std::uint32_t solver = shared::SOLVER_WCSPH;
+    bool implicit_viscosity = false; ///< solved for (reference/viscosity)
 };
 
 /// What a run has noticed: its first fault, and the pairs without direction of the last force evaluation.
@@ -39,6 +40,9 @@ struct State {
     std::vector<double> weight;            ///< in its neighbors' number density
     std::vector<double> density;           ///< kg/m^3
     std::vector<double> pressure;          ///< Pa
+
+    /// m/s^2, what the last viscosity solve did; empty before the first one.
+    std::vector<glm::dvec3> viscous_acceleration;
 
     RunStatus status;
     std::uint32_t step = 0; ///< index of the step to come

@@ -6,6 +6,7 @@
 #include "reference/density.h"
 #include "reference/forces.h"
 #include "reference/integrate.h"
+#include "reference/viscosity.h"
 
 namespace meltpoint::reference {
 
@@ -26,6 +27,9 @@ void step(const Settings& settings, State& state)
     drift(settings, state);
     evaluate(settings, state);
     kick(state, half_step);
+    if (settings.implicit_viscosity) {
+        (void)solve_viscosity(settings, state, find_neighbors(settings.params, state.position));
+    }
     ++state.step;
 }
 

@@ -130,6 +130,15 @@ TimeStepBounds time_step_bounds(const Scene& scene, double speed_of_sound, doubl
                                          : std::numeric_limits<double>::infinity()};
 }
 
+bool solves_viscosity(const Scene& scene, const TimeStepBounds& bounds)
+{
+    if (scene.physics.viscosity_model != ViscosityModel::Auto) {
+        return scene.physics.viscosity_model == ViscosityModel::Implicit;
+    }
+    const double frame = 1.0 / static_cast<double>(scene.time.frame_rate);
+    return bounds.viscosity < (scene.time.dt ? static_cast<double>(*scene.time.dt) : std::min(bounds.cfl, frame));
+}
+
 sim::SimulationSettings with_fixed_steps(sim::SimulationSettings settings)
 {
     settings.params.adaptive_dt = 0;
@@ -160,6 +169,8 @@ FluidSettings fluid_settings(const Scene& scene, const ParticleSet& particles)
     params.density_error = scene.solve.density_error;
     params.divergence_error = scene.solve.divergence_error;
     params.max_iterations = scene.solve.max_iterations;
+    params.viscosity_error = scene.solve.viscosity_error;
+    params.viscosity_iterations = scene.solve.viscosity_iterations;
     const SceneMaterials materials = scene_materials(scene);
     for (std::size_t i = 0; i < materials.materials.size(); ++i) {
         params.rest_density[i] = materials.materials[i].rest_density;
@@ -167,7 +178,12 @@ FluidSettings fluid_settings(const Scene& scene, const ParticleSet& particles)
     }
 
     const double frame_rate = static_cast<double>(scene.time.frame_rate);
-    const TimeStepBounds bounds = time_step_bounds(scene, static_cast<double>(params.speed_of_sound), speed);
+    TimeStepBounds bounds = time_step_bounds(scene, static_cast<double>(params.speed_of_sound), speed);
+    sim::FluidOptions& options = settings.simulation.options;
+    options.implicit_viscosity = solves_viscosity(scene, bounds);
+    if (options.implicit_viscosity) {
+        bounds.viscosity = std::numeric_limits<double>::infinity();
+    }
     params.adaptive_dt = scene.time.dt ? 0 : 1;
     params.dt = scene.time.dt.value_or(static_cast<float>(std::min(bounds.smallest(), 1.0 / frame_rate)));
     const bool solved = scene.solver != Solver::Wcsph;
@@ -209,7 +225,6 @@ FluidSettings fluid_settings(const Scene& scene, const ParticleSet& particles)
     params.longest_move = (solved ? 0.5f : 0.4f * 0.5f) * params.support_radius;
     params.speed_limit = params.longest_move / params.dt;
 
-    sim::FluidOptions& options = settings.simulation.options;
     options.solver = scene.solver == Solver::Dfsph ? shared::SOLVER_DFSPH : shared::SOLVER_WCSPH;
     options.kernel = scene.kernel == SphKernel::Wendland ? shared::KERNEL_WENDLAND : shared::KERNEL_PAPER;
     options.tension = scene.physics.surface_tension > 0.0f;

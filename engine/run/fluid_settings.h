@@ -15,8 +15,9 @@ namespace meltpoint {
 
 /// The largest stable time steps (s) at support radius S, each the bound of one thing.
 struct TimeStepBounds {
-    double cfl = 0.0;       ///< 0.4 (S/2) / (c0 + v)
-    double viscosity = 0.0; ///< 0.06 rho S^2 / mu, infinite without viscosity
+    double cfl = 0.0; ///< 0.4 (S/2) / (c0 + v)
+    double viscosity =
+        0.0; ///< 0.06 rho S^2 / mu, infinite without viscosity; does not hold where viscosity is solved for
 
     [[nodiscard]] double smallest() const { return cfl < viscosity ? cfl : viscosity; }
 };
@@ -31,6 +32,10 @@ struct FluidSettings {
 
 /// The same with every step params.dt long: for those who compare, or time, step by step.
 [[nodiscard]] sim::SimulationSettings with_fixed_steps(sim::SimulationSettings settings);
+
+/// Whether viscosity is solved for: as the scene says, or, automatically, where its bound would be the shortest of
+/// `bounds`, a frame and time.dt.
+[[nodiscard]] bool solves_viscosity(const Scene& scene, const TimeStepBounds& bounds);
 
 /// What the passes need of a scene: automatic speed of sound and dt resolved, kernel scales computed. An automatic dt
 /// is left to the device, with its bounds; params.dt is then what the bounds allow at the expected speed. Throws Input

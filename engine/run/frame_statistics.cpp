@@ -106,7 +106,7 @@ std::string_view statistics_header()
            "momentum_y,"
            "momentum_z,com_x,com_y,com_z,min_x,min_y,min_z,max_x,max_y,max_z,density_error_mean,density_error_max,"
            "speed_max,"
-           "outside,neighbors_mean,simulate_ms,draw_ms,iterations_density,iterations_divergence\n";
+           "outside,neighbors_mean,simulate_ms,draw_ms,iterations_density,iterations_divergence,iterations_viscosity\n";
 }
 
 std::string statistics_row(const FrameStatistics& s)
@@ -124,8 +124,9 @@ std::string statistics_row(const FrameStatistics& s)
     const auto cell_or_empty = [](const std::optional<double>& value) {
         return value ? cell(*value) : std::string();
     };
-    row += fmt::format(",{},{},{:.3f},{:.3f},{},{}\n", s.outside, cell_or_empty(s.neighbors_mean), s.simulate_ms,
-                       s.draw_ms, cell_or_empty(s.iterations_density), cell_or_empty(s.iterations_divergence));
+    row += fmt::format(",{},{},{:.3f},{:.3f},{},{},{}\n", s.outside, cell_or_empty(s.neighbors_mean), s.simulate_ms,
+                       s.draw_ms, cell_or_empty(s.iterations_density), cell_or_empty(s.iterations_divergence),
+                       cell_or_empty(s.iterations_viscosity));
     return row;
 }
 

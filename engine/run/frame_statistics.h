@@ -44,6 +44,7 @@ struct FrameStatistics {
     double draw_ms = 0.0;
     std::optional<double> iterations_density;    ///< of a step's density solve, mean since the frame before
     std::optional<double> iterations_divergence; ///< likewise
+    std::optional<double> iterations_viscosity;  ///< likewise
 };
 
 /// Everything but frame, time, steps, dt, neighbors and wall times.

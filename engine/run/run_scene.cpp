@@ -260,6 +260,18 @@ void warn_of_unmet_errors(const Scene& scene,
     }
 }
 
+/// The same of viscosity.
+void warn_of_unmet_viscosity(const Scene& scene, const sim::Simulation::SolveStatistics& solves, std::uint32_t frame,
+                             bool& warned)
+{
+    if (solves.unconverged > 0 && !warned) {
+        log_warning(fmt::format("frame {}: {} viscosity solves ended at {} iterations with errors of up to {:.3g} "
+                                "(solve.viscosity_iterations, solve.viscosity_error)",
+                                frame, solves.unconverged, scene.solve.viscosity_iterations, solves.worst_error));
+        warned = true;
+    }
+}
+
 } // namespace
 
 RunSummary run_scene(const gpu::Context& context, const Scene& scene, const RunOptions& options)
@@ -304,6 +316,7 @@ RunSummary run_scene(const gpu::Context& context, const Scene& scene, const RunO
     RunSummary summary{.particles = particle_count};
     bool warned_of_coincident = false;
     bool warned_of_solves = false;
+    bool warned_of_viscosity = false;
     double previous_frame_time = 0.0;
     Progress progress("frames", scene.time.frames, options.quiet);
     for (std::uint32_t frame = 0; frame < scene.time.frames; ++frame) {
@@ -322,6 +335,10 @@ RunSummary run_scene(const gpu::Context& context, const Scene& scene, const RunO
         const auto solves = simulation ? simulation->take_solve_statistics() : std::nullopt;
         if (solves) {
             warn_of_unmet_errors(scene, *solves, frame, warned_of_solves);
+        }
+        const auto viscosity = simulation ? simulation->take_viscosity_statistics() : std::nullopt;
+        if (viscosity) {
+            warn_of_unmet_viscosity(scene, *viscosity, frame, warned_of_viscosity);
         }
         summary.time = simulation ? simulation->time() : frame_time;
         previous_frame_time = frame_time;
@@ -353,6 +370,9 @@ RunSummary run_scene(const gpu::Context& context, const Scene& scene, const RunO
                 if (solves) {
                     statistics.iterations_density = (*solves)[shared::SOLVE_DENSITY].mean_iterations;
                     statistics.iterations_divergence = (*solves)[shared::SOLVE_DIVERGENCE].mean_iterations;
+                }
+                if (viscosity) {
+                    statistics.iterations_viscosity = viscosity->mean_iterations;
                 }
                 statistics.simulate_ms = simulate_ms;
                 statistics.draw_ms = draw_ms;

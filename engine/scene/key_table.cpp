@@ -247,6 +247,8 @@ std::vector<SceneKey> make_scene_keys()
 
         k("physics.gravity", FIELD(physics.gravity), "m/s^2", Range{-1e4, 1e4}, "acceleration of everything"),
         k("physics.viscosity", FIELD(physics.viscosity), "Pa s", Range{0, 1e4}, "dynamic; water has 0.001, but at this resolution splashes look right with more"),
+        choice<Scene>("physics.viscosity_model", FIELD(physics.viscosity_model), {{"auto", ViscosityModel::Auto}, {"explicit", ViscosityModel::Explicit}, {"implicit", ViscosityModel::Implicit}},
+                      "explicit: a force like the others, which makes thick fluids take tiny steps (Mueller et al. 2003); implicit: solved for at the end of each step (Weiler et al. 2018), which bounds no step and leaves rotation alone; auto: implicit where the explicit one would shorten the steps"),
         k("physics.surface_tension", FIELD(physics.surface_tension), "N/m", Range{0, 1e4}, "of the model of Mueller et al. 2003: a look, not a measured force"),
         k("physics.tension_threshold", FIELD(physics.tension_threshold), "", Range{0, 100}, "on the color gradient times H: particles below it are inside and feel no tension"),
         choice<Scene>("physics.state_equation", FIELD(physics.state_equation), {{"linear", StateEquation::Linear}, {"tait", StateEquation::Tait}},
@@ -258,7 +260,9 @@ std::vector<SceneKey> make_scene_keys()
 
         k("solve.density_error", FIELD(solve.density_error), "", Range{1e-6, 0.1}, "dfsph: mean of rho/rho0 - 1, where positive, at which a step's density solve ends"),
         k("solve.divergence_error", FIELD(solve.divergence_error), "", Range{1e-6, 0.1}, "dfsph: mean relative growth of density in a step, where positive, at which its divergence solve ends"),
-        k("solve.max_iterations", FIELD(solve.max_iterations), "", Range{1, 1000}, "of a solve; ending there without having met the error is reported"),
+        k("solve.max_iterations", FIELD(solve.max_iterations), "", Range{1, 1000}, "of a solve for pressure; ending there without having met the error is reported"),
+        k("solve.viscosity_error", FIELD(solve.viscosity_error), "", Range{1e-6, 0.1}, "implicit viscosity: what may be left over of the viscous forces, relative, root mean square, for a step's solve to end"),
+        k("solve.viscosity_iterations", FIELD(solve.viscosity_iterations), "", Range{1, 1000}, "of that solve; ending there without having met the error is reported"),
 
         k("time.dt", FIELD(time.dt), "s", Range{1e-9, 1}, "step; auto: as long as stability allows, chosen anew for every step, the last of a frame ending at its time"),
         k("time.frame_rate", FIELD(time.frame_rate), "1/s", Range{1e-2, 1e6}, "frames in a second of simulated time"),

@@ -16,6 +16,7 @@ namespace meltpoint {
 enum class SphKernel { Paper, Wendland };
 enum class StateEquation { Linear, Tait };
 enum class Solver { Wcsph, Dfsph };
+enum class ViscosityModel { Auto, Explicit, Implicit };
 
 /// The box that the particles stay in.
 struct DomainSettings {
@@ -35,8 +36,9 @@ struct ParticleSettings {
 struct FluidPhysics {
     glm::vec3 gravity{0.0f, -9.81f, 0.0f}; ///< m/s^2
     float viscosity = 0.5f;                ///< dynamic, Pa s
-    float surface_tension = 0.0f;          ///< N/m, the paper's model (a look)
-    float tension_threshold = 0.5f;        ///< on |n| H
+    ViscosityModel viscosity_model = ViscosityModel::Auto;
+    float surface_tension = 0.0f;   ///< N/m, the paper's model (a look)
+    float tension_threshold = 0.5f; ///< on |n| H
     StateEquation state_equation = StateEquation::Tait;
     std::optional<float> speed_of_sound; ///< m/s; auto: 10 times the speed expected of this scene
     float gamma = 7.0f;                  ///< Tait exponent
@@ -44,11 +46,13 @@ struct FluidPhysics {
     bool clamp_pressure = true;
 };
 
-/// When the solves of incompressible fluids end.
+/// When the solves for pressure and for viscosity end.
 struct SolveSettings {
-    float density_error = 5e-4f;       ///< mean of max(rho/rho0 - 1, 0)
-    float divergence_error = 1e-3f;    ///< mean of max(dt drho/dt / rho0, 0), a step
-    std::uint32_t max_iterations = 60; ///< of each solve of a step
+    float density_error = 5e-4f;             ///< mean of max(rho/rho0 - 1, 0)
+    float divergence_error = 1e-3f;          ///< mean of max(dt drho/dt / rho0, 0), a step
+    std::uint32_t max_iterations = 60;       ///< of each solve of a step for pressure
+    float viscosity_error = 0.01f;           ///< of the viscous forces, root mean square
+    std::uint32_t viscosity_iterations = 60; ///< of a step's solve for viscosity, at most
 };
 
 /// How long a run is, and in what steps.

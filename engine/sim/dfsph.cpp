@@ -5,6 +5,7 @@
 #include <initializer_list>
 #include <utility>
 
+#include "sim/implicit_viscosity.h"
 #include "sim/wcsph.h"
 #include "spirv/sim/dfsph_correct.comp.h"
 #include "spirv/sim/dfsph_residual.comp.h"
@@ -59,10 +60,12 @@ void Dfsph::record_step(gpu::Commands& commands, const Fluid& fluid, std::uint32
     record_solve(commands, fluid, shared::SOLVE_DIVERGENCE);
     record_forces(commands, fluid.kernels, fluid.params, fluid.particles, fluid.grid);
     fluid.time.record(commands, fluid.params, fluid.particles);
-    if (fluid.boundary_forces != nullptr) { // now that it is known how long the forces act
-        fluid.boundary_forces->record_forces(commands, fluid);
-    }
+    record_reactions(commands, fluid, false); // now that it is known how long the forces act
     record_kick(commands, fluid.kernels, fluid.params, fluid.particles, 1.0f);
+    if (fluid.viscosity != nullptr) {
+        fluid.viscosity->record_solve(commands, fluid);
+        record_reactions(commands, fluid, true);
+    }
     record_solve(commands, fluid, shared::SOLVE_DENSITY);
     if (fluid.boundary_forces != nullptr) {
         fluid.boundary_forces->record_impulses(commands, fluid, warm_start_);

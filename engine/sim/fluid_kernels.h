@@ -13,11 +13,12 @@ struct FluidOptions {
     std::uint32_t solver = shared::SOLVER_WCSPH;
     std::uint32_t kernel = shared::KERNEL_PAPER;
     bool tension = false;
-    std::uint32_t tile = 0; ///< particles an invocation, 1 to 16; 0 chooses for the device
+    bool implicit_viscosity = false; ///< solved for (sim/implicit_viscosity)
+    std::uint32_t tile = 0;          ///< particles an invocation, 1 to 16; 0 chooses for the device
 };
 
 /// Values of the specialization constants that shaders/ agree on. Throws Input when options.tile is out of range.
-[[nodiscard]] std::array<gpu::SpecConstant, 5> fluid_constants(const gpu::DeviceInfo& device,
+[[nodiscard]] std::array<gpu::SpecConstant, 6> fluid_constants(const gpu::DeviceInfo& device,
                                                                const FluidOptions& options);
 
 /// 4 on software devices, where loading a candidate costs more than using it; 1 on GPUs.

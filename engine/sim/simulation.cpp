@@ -20,7 +20,8 @@ namespace {
 constexpr std::uint32_t max_steps_per_submission = 16;
 constexpr std::uint32_t particle_steps_per_submission = 1'000'000;
 
-/// Particles and the grid's copies of them, per particle, with the sort's keys, order and scratch, and the neighbors' bits.
+/// Particles and the grid's copies of them, per particle, with the sort's keys, order and scratch, and the neighbors'
+/// bits.
 constexpr std::uint64_t bytes_per_particle =
     particle_buffer_bytes + 2 * sizeof(glm::vec4) + (8 + NeighborGrid::neighbor_words) * sizeof(std::uint32_t);
 
@@ -83,6 +84,10 @@ Simulation::Simulation(const gpu::Context& context, const ParticleSet& particles
     gpu::upload<shared::SphParams>(context, params_buffer_, {&params_, 1});
     commands_->begin();
     commands_->fill(status_, shared::NO_STEP);
+    if (settings.options.implicit_viscosity) {
+        viscosity_.emplace(context, settings.options, params_);
+        viscosity_->record_start(*commands_);
+    }
     solver_->record_start(*commands_, fluid());
     commands_->submit();
     commands_->wait();
@@ -155,7 +160,7 @@ void Simulation::check_status(const shared::Status& status) const
 
 std::uint64_t Simulation::device_bytes() const
 {
-    std::uint64_t sum = solver_->device_bytes();
+    std::uint64_t sum = solver_->device_bytes() + (viscosity_ ? viscosity_->device_bytes() : 0);
     sum += boundary_forces_ != nullptr ? boundary_forces_->reactions().size() : 0;
     for (const gpu::Buffer* buffer : {&particles_.id,
                                       &particles_.attributes,
@@ -213,25 +218,39 @@ NeighborStatistics Simulation::neighbor_statistics()
     return statistics;
 }
 
+std::vector<Simulation::SolveStatistics> Simulation::take_statistics(const gpu::Buffer& solves, std::size_t count,
+                                                                     std::uint64_t& taken_at)
+{
+    const auto found = gpu::download<shared::Solve>(*context_, solves, count);
+    commands_->begin();
+    commands_->fill(solves, 0, count * sizeof(shared::Solve));
+    commands_->submit();
+    commands_->wait();
+    const auto steps = static_cast<double>(std::max(step_ - taken_at, std::uint64_t{1}));
+    taken_at = step_;
+    std::vector<SolveStatistics> statistics;
+    for (const shared::Solve& solve : found) {
+        statistics.push_back({.mean_iterations = solve.total_iterations / steps,
+                              .worst_error = static_cast<double>(solve.worst_error),
+                              .unconverged = solve.unconverged});
+    }
+    return statistics;
+}
+
 std::optional<std::array<Simulation::SolveStatistics, shared::SOLVES>> Simulation::take_solve_statistics()
 {
     if (solver_->solves() == nullptr) {
         return std::nullopt;
     }
-    const auto found = gpu::download<shared::Solve>(*context_, *solver_->solves(), shared::SOLVES);
-    commands_->begin();
-    commands_->fill(*solver_->solves(), 0);
-    commands_->submit();
-    commands_->wait();
-    const auto steps = static_cast<double>(std::max(step_ - solves_taken_at_, std::uint64_t{1}));
-    solves_taken_at_ = step_;
+    const auto found = take_statistics(*solver_->solves(), shared::SOLVES, solves_taken_at_);
     std::array<SolveStatistics, shared::SOLVES> statistics;
-    for (std::size_t i = 0; i < found.size(); ++i) {
-        statistics[i] = {.mean_iterations = found[i].total_iterations / steps,
-                         .worst_error = static_cast<double>(found[i].worst_error),
-                         .unconverged = found[i].unconverged};
-    }
+    std::ranges::copy(found, statistics.begin());
     return statistics;
+}
+
+std::optional<Simulation::SolveStatistics> Simulation::take_viscosity_statistics()
+{
+    return viscosity_ ? std::optional(take_statistics(viscosity_->state(), 1, viscosity_taken_at_)[0]) : std::nullopt;
 }
 
 void Simulation::measure_boundary_forces()
@@ -270,7 +289,8 @@ Simulation::BoundaryForceMeans Simulation::take_boundary_forces()
 
 void Simulation::enable_timings()
 {
-    commands_ = std::make_unique<gpu::Commands>(*context_, max_steps_per_submission * solver_->scopes());
+    commands_ = std::make_unique<gpu::Commands>(*context_,
+                                                max_steps_per_submission * (solver_->scopes() + (viscosity_ ? 1 : 0)));
 }
 
 } // namespace meltpoint::sim

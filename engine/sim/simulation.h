@@ -11,6 +11,7 @@
 #include "particles/particle_set.h"
 #include "shared/sph_params.h"
 #include "sim/fluid_kernels.h"
+#include "sim/implicit_viscosity.h"
 #include "sim/neighbor_grid.h"
 #include "sim/solver.h"
 
@@ -73,6 +74,8 @@ public:
     };
     /// By shared::SOLVE_*; empty where nothing is solved for. Waits, and starts to count anew.
     [[nodiscard]] std::optional<std::array<SolveStatistics, shared::SOLVES>> take_solve_statistics();
+    /// The same of viscosity; empty where it is not solved for.
+    [[nodiscard]] std::optional<SolveStatistics> take_viscosity_statistics();
 
     /// The mean forces of fluid on boundary particles over a time: the reactions to theirs on it.
     struct BoundaryForceMeans {
@@ -110,14 +113,24 @@ private:
     [[nodiscard]] std::uint32_t steps_a_submission() const;
     [[nodiscard]] Fluid fluid()
     {
-        return {kernels_, params_buffer_, particles_, grid_, status_, time_, boundary_forces_.get()};
+        return {kernels_,
+                params_buffer_,
+                particles_,
+                grid_,
+                status_,
+                time_,
+                boundary_forces_.get(),
+                viscosity_ ? &*viscosity_ : nullptr};
     }
+    /// Of shared::Solve at a buffer's start, over the steps since `taken_at`, which is set to the present one.
+    std::vector<SolveStatistics> take_statistics(const gpu::Buffer& solves, std::size_t count, std::uint64_t& taken_at);
 
     const gpu::Context* context_;
     shared::SphParams params_;
     FluidOptions options_;
     FluidKernels kernels_;
     std::unique_ptr<Solver> solver_;
+    std::optional<ImplicitViscosity> viscosity_;
     ParticleBuffers particles_;
     NeighborGrid grid_;
     gpu::Buffer params_buffer_;
@@ -131,6 +144,7 @@ private:
     double wanted_seconds_ = 0.0;       ///< of all calls of advance_by
     std::uint64_t solves_taken_at_ = 0; ///< step of the last take_solve_statistics
     double forces_taken_at_ = 0.0;      ///< s, of the last take_boundary_forces
+    std::uint64_t viscosity_taken_at_ = 0;
 };
 
 } // namespace meltpoint::sim

@@ -5,6 +5,13 @@
 
 namespace meltpoint::sim {
 
+void record_reactions(gpu::Commands& commands, const Fluid& fluid, bool after_viscosity)
+{
+    if (fluid.boundary_forces != nullptr && after_viscosity == (fluid.viscosity != nullptr)) {
+        fluid.boundary_forces->record_forces(commands, fluid);
+    }
+}
+
 std::unique_ptr<Solver> make_solver(const gpu::Context& context, const FluidOptions& options,
                                     const shared::SphParams& params)
 {

@@ -13,6 +13,8 @@
 
 namespace meltpoint::sim {
 
+class ImplicitViscosity;
+
 /// What the passes of a step work on.
 struct Fluid {
     const FluidKernels& kernels;
@@ -22,6 +24,7 @@ struct Fluid {
     const gpu::Buffer& status; ///< shared::Status
     TimeControl& time;
     BoundaryForces* boundary_forces = nullptr; ///< null where nobody measures them
+    ImplicitViscosity* viscosity = nullptr;    ///< null where viscosity is a force like the others
 };
 
 /// How a fluid gets its pressure and takes a step: the one interface of all solvers.
@@ -41,6 +44,10 @@ public:
     /// shared::Solve[shared::SOLVES]; null where nothing is solved for.
     [[nodiscard]] virtual const gpu::Buffer* solves() const { return nullptr; }
 };
+
+/// The forces of fluid on boundary particles, where they are measured: friction is that of the velocities before the
+/// kick, or, solved for, of those that the solve has found. To be called at both places.
+void record_reactions(gpu::Commands& commands, const Fluid& fluid, bool after_viscosity);
 
 /// The solver that options.solver names. Throws Device when its buffers do not fit.
 [[nodiscard]] std::unique_ptr<Solver> make_solver(const gpu::Context& context, const FluidOptions& options,

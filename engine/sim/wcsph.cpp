@@ -2,6 +2,8 @@
 
 #include <utility>
 
+#include "sim/implicit_viscosity.h"
+
 namespace meltpoint::sim {
 
 using gpu::read;
@@ -83,10 +85,12 @@ void Wcsph::record_step(gpu::Commands& commands, const Fluid& fluid, std::uint32
     record_sort(commands, fluid.kernels, fluid.params, fluid.particles, fluid.grid);
     record_density(commands, fluid.kernels, fluid.params, fluid.particles, fluid.grid);
     record_forces(commands, fluid.kernels, fluid.params, fluid.particles, fluid.grid);
-    if (fluid.boundary_forces != nullptr) {
-        fluid.boundary_forces->record_forces(commands, fluid);
-    }
+    record_reactions(commands, fluid, false);
     record_kick(commands, fluid.kernels, fluid.params, fluid.particles);
+    if (fluid.viscosity != nullptr) {
+        fluid.viscosity->record_solve(commands, fluid);
+        record_reactions(commands, fluid, true);
+    }
 }
 
 } // namespace meltpoint::sim

@@ -50,6 +50,14 @@ vec2 force_shapes(float r2, KernelSize size)
     return vec2(u3 * size.inverse_h, u3);
 }
 
+// Of the viscous forces along the line of a pair / pair_viscosity_scale, the same for all kernels. The taper makes a lattice
+// resist shear along its axes as it does along its diagonals.
+float pair_viscosity_shape(float r2, float taper, KernelSize size)
+{
+    float u = max(1.0 - sqrt(r2) * size.inverse_h, 0.0);
+    return u * (1.0 + taper * u);
+}
+
 // The color field's kernel. x: -W' / (color_gradient_scale r); y: Laplacian / color_laplacian_scale.
 vec2 color_shapes(float r2, KernelSize size)
 {

@@ -1,17 +1,21 @@
-// Sum over the invocations of a workgroup, always in the same order.
+// Sum over the invocations of a workgroup, always in the same order: of vec2, or of what SUM_TYPE was defined as before.
 #ifndef WORKGROUP_SUM_GLSL
 #define WORKGROUP_SUM_GLSL
 
 #include "include/invocation.glsl"
 
-shared vec2 workgroup_terms[WORKGROUP_SIZE];
+#ifndef SUM_TYPE
+#define SUM_TYPE vec2
+#endif
+
+shared SUM_TYPE workgroup_terms[WORKGROUP_SIZE];
 
 // To be called by all invocations; only the first one gets the sum.
-vec2 workgroup_sum(vec2 term)
+SUM_TYPE workgroup_sum(SUM_TYPE term)
 {
     workgroup_terms[gl_LocalInvocationIndex] = term;
     barrier();
-    vec2 sum = vec2(0.0);
+    SUM_TYPE sum = SUM_TYPE(0.0);
     if (gl_LocalInvocationIndex == 0u) {
         for (uint i = 0u; i < WORKGROUP_SIZE; ++i) {
             sum += workgroup_terms[i];

@@ -67,6 +67,8 @@ struct SphParams {
     float density_scale;         // paper: W = scale (1-q^2)^3         wendland: W = scale (1-q)^4 (1+4q)      [1/m^3]
     float gradient_scale;        // paper: W' = -scale (1-q)^2         wendland: W' = -scale q (1-q)^3         [1/m^4]
     float viscosity_scale;       // paper: lap = scale (1-q)           wendland: lap = scale (1-q)^3           [1/m^5]
+    float pair_viscosity_scale;  // of the viscous forces of pairs, solved for: scale u (1 + taper u), u = 1-q [1/m^5]
+    float pair_viscosity_taper;
     float color_gradient_scale;  // paper: W' = -scale q (1-q^2)^2     wendland: as gradient_scale             [1/m^4]
     float color_laplacian_scale; // paper: lap = -scale (1-q^2)(3-7q^2)   wendland: lap = -scale (1-q)^2 (1-2q) [1/m^5]
 
@@ -81,6 +83,10 @@ struct SphParams {
     float divergence_error; // a time step
     uint max_iterations;
     float solve_relaxation; // of a Jacobi iteration: neighbors correct the same error, and together would overshoot
+
+    // Where viscosity is solved for (shared/viscosity_solve.h): the error at which a solve ends, and its most iterations.
+    float viscosity_error;
+    uint viscosity_iterations;
 
     // Where the device chooses dt (time_step.comp): cfl_length / (cfl_speed + the fastest particle's speed).
     uint adaptive_dt;

@@ -12,7 +12,6 @@
 #include "include/invocation.glsl"
 #include "include/neighbor_walk.glsl"
 #include "include/sph_kernel.glsl"
-#include "include/workgroup_sum.glsl"
 #include "shared/particle_state.h"
 #include "shared/solve.h"
 
@@ -28,11 +27,13 @@ layout(set = 0, binding = 8, scalar) buffer WarmStart { vec2 warm_start[]; };   
 layout(set = 0, binding = 9, scalar) coherent buffer Errors { vec2 errors[]; }; // a workgroup: sum over fluid particles, their number
 layout(set = 0, binding = 10, scalar) coherent buffer Solves { Solve solves[SOLVES]; };
 
-shared uint workgroups_before; // that were done when this one was
-
+#define WORKGROUP_SUMS errors
+#define ARRIVED solves[push.solve].arrived
 #include "include/boundary.glsl"
+#include "include/dispatch_sum.glsl"
 #include "include/image_walk.glsl"
 #include "include/neighbor_bits.glsl"
+#include "include/solve.glsl"
 
 // sum_j s_j (v_j - v_i) . g_ij of each particle of the tile, over gradient_scale: the rate of its number density.
 void number_density_rates(vec4 own[TILE], Tile tile, out float rate[TILE])
@@ -72,14 +73,9 @@ void end_iteration(float error)
     bool met = error <= (push.solve == SOLVE_DENSITY ? params.density_error : params.divergence_error);
     bool last = push.iteration >= params.max_iterations;
     bool ends = last || (met && push.iteration > 0u); // the warm start is only a guess
-    solves[push.solve].arrived = 0u;
     solves[push.solve].groups = ends ? uvec3(0u) : gl_NumWorkGroups;
     if (ends) {
-        solves[push.solve].iterations = push.iteration;
-        solves[push.solve].error = error;
-        solves[push.solve].worst_error = max(solves[push.solve].worst_error, error);
-        solves[push.solve].total_iterations += push.iteration;
-        solves[push.solve].unconverged += met ? 0u : 1u;
+        note_end(solves[push.solve], push.iteration, error, met);
     }
 }
 
@@ -116,24 +112,7 @@ void main()
             error += vec2(max(excess, 0.0), 1.0);
         }
     }
-    error = workgroup_sum(error);
-    if (gl_LocalInvocationIndex == 0u) {
-        errors[workgroup_index()] = error;
-        memoryBarrierBuffer(); // before the count that tells the last workgroup that it is there
-        workgroups_before = atomicAdd(solves[push.solve].arrived, 1u);
-    }
-    barrier();
-    uint workgroups = gl_NumWorkGroups.x * gl_NumWorkGroups.y;
-    if (workgroups_before + 1u < workgroups) {
-        return;
-    }
-    memoryBarrierBuffer();
-    error = vec2(0.0);
-    for (uint i = gl_LocalInvocationIndex; i < workgroups; i += WORKGROUP_SIZE) {
-        error += errors[i];
-    }
-    error = workgroup_sum(error);
-    if (gl_LocalInvocationIndex == 0u) {
+    if (dispatch_sum(error)) {
         end_iteration(error.y > 0.0 ? error.x / error.y : 0.0);
     }
 }

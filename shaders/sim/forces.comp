@@ -15,6 +15,7 @@
 
 layout(constant_id = 2) const bool TENSION = false;
 layout(constant_id = 4) const bool SOLVED_PRESSURE = false; // then pressure and contact come later in the step
+layout(constant_id = 6) const bool SOLVED_VISCOSITY = false; // and so do viscosity and friction
 
 layout(set = 0, binding = 0, scalar) uniform Params { SphParams params; };
 layout(set = 0, binding = 2, scalar) readonly buffer Position { vec4 position[]; };
@@ -38,6 +39,7 @@ vec3 wall_acceleration(vec3 x, vec3 v, float rho)
     vec3 push = max(spring - params.contact_damping * v * walls.normal, vec3(0.0)) * walls.normal;
     vec3 viscosity = half_space_viscosity(walls.distance, params.support_radius); // zero beyond the support
     float friction = params.wall_viscosity / rho * params.viscosity_scale * (viscosity.x + viscosity.y + viscosity.z);
+    friction = SOLVED_VISCOSITY ? 0.0 : friction;
     bvec3 in_contact = lessThan(walls.distance, vec3(SOLVED_PRESSURE ? -NO_WALL : params.contact_distance));
     return mix(vec3(0.0), push, in_contact) - friction * v;
 }
@@ -104,7 +106,7 @@ void main()
             vec3 interaction_j = load_candidate(interaction, j).xyz;
             float pressure_term_j = interaction_j.x;
             float volume_j = interaction_j.y;
-            float viscous_term_j = interaction_j.z;
+            float viscous_term_j = SOLVED_VISCOSITY ? 0.0 : interaction_j.z;
             [[unroll]] for (uint k = 0u; k < TILE; ++k) {
                 vec3 offset = x[k] - xj.xyz;
                 float r2 = dot(offset, offset);

@@ -185,6 +185,22 @@ TEST_P(PassConformance, SolvedPressure)
     }
 }
 
+TEST_P(PassConformance, SolvedViscosity)
+{
+    const auto [state, kernel] = GetParam();
+    sim::SimulationSettings settings = test_settings(kernel);
+    settings.options.implicit_viscosity = true;
+    settings.params.viscosity = 300.0f;
+    settings.params.friction[1] = 100.0f;
+    settings.params.wall_viscosity = 200.0f;
+    settings.params.dt = 2e-3f;
+    for (const std::uint32_t tile : {1u, 4u}) {
+        SCOPED_TRACE(tile);
+        settings.options.tile = tile;
+        expect_conformance(settings, states()[state].make());
+    }
+}
+
 TEST_P(PassConformance, EveryTileSize)
 {
     const auto [state, kernel] = GetParam();

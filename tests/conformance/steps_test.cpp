@@ -77,6 +77,30 @@ TEST_F(Steps, StepsWithSolvedPressureAreTheTwins)
     }
 }
 
+TEST_F(Steps, StepsWithSolvedViscosityAreTheTwins)
+{
+    for (const std::uint32_t solver : {shared::SOLVER_WCSPH, shared::SOLVER_DFSPH}) {
+        SCOPED_TRACE(solver);
+        sim::SimulationSettings settings = solver == shared::SOLVER_DFSPH ? dfsph_settings(shared::KERNEL_WENDLAND)
+                                                                          : test_settings(shared::KERNEL_WENDLAND);
+        settings.options.implicit_viscosity = true;
+        settings.params.viscosity = 500.0f;
+        settings.params.friction[1] = 100.0f;
+        settings.params.wall_viscosity = 50.0f;
+        // A set number of iterations, or rounding alone would decide how many there are.
+        sim::SimulationSettings counted = settings;
+        counted.params.density_error = counted.params.divergence_error = counted.params.viscosity_error = 0.0f;
+        counted.params.max_iterations = counted.params.viscosity_iterations = 5;
+        ParticleSet on_a_plate = lattice_state({10, 4, 10}, glm::vec3(0.2f, 0.36f, 0.2f));
+        add_plate(on_a_plate, 1.0f, 0.3f, 0.75f * test_spacing, 0.3f, 3);
+        for (const ParticleSet& set : {on_a_plate, falling_block()}) {
+            expect_all(conformance::compare_steps(context(), set, counted, 1));
+            expect_all(conformance::compare_steps(context(), set, counted, 3));
+            expect_all(conformance::compare_steps(context(), set, settings, 50));
+        }
+    }
+}
+
 // Alone it never reaches rest density, so nothing but the contact holds it.
 TEST_F(Steps, WallsHoldALoneParticle)
 {
@@ -159,6 +183,26 @@ TEST_F(Steps, RerunsAndTileSizesGiveTheSameBits)
         EXPECT_EQ(first.position, again.position);
         EXPECT_EQ(first.velocity, again.velocity);
         EXPECT_EQ(first.density, again.density);
+    }
+}
+
+TEST_F(Steps, RerunsWithSolvedViscosityGiveTheSameBits)
+{
+    ParticleSet first;
+    for (int run = 0; run < 3; ++run) {
+        sim::SimulationSettings settings = dfsph_settings(shared::KERNEL_WENDLAND);
+        settings.options.implicit_viscosity = true;
+        settings.params.viscosity = 500.0f;
+        sim::Simulation simulation(context(), falling_block(), settings);
+        simulation.advance(40);
+        const ParticleSet set = simulation.download();
+        if (run == 0) {
+            first = set;
+            EXPECT_GE(simulation.take_viscosity_statistics().value().mean_iterations, 1.0);
+        }
+        EXPECT_EQ(set.position, first.position);
+        EXPECT_EQ(set.velocity, first.velocity);
+        EXPECT_EQ(set.pressure, first.pressure);
     }
 }
 

@@ -144,10 +144,41 @@ TEST(FluidSettings, SolvesAreTheScenes)
     EXPECT_EQ(settings.params.max_iterations, 7u);
 }
 
+TEST(FluidSettings, ViscosityIsSolvedForWhereItsBoundWouldBeTheShortest)
+{
+    Scene scene = falling_block();
+    const auto is_implicit = [&] {
+        return settings_of(scene).simulation.options.implicit_viscosity;
+    };
+    EXPECT_FALSE(is_implicit());
+    const double cfl = dt_of(scene);
+    const double just_right = 0.06 * 1000.0 * 0.04 / cfl; // the viscosity whose bound it is
+    scene.physics.viscosity = static_cast<float>(0.95 * just_right);
+    EXPECT_FALSE(is_implicit());
+    scene.physics.viscosity = static_cast<float>(1.05 * just_right);
+    EXPECT_TRUE(is_implicit());
+    EXPECT_NEAR(dt_of(scene), cfl, 1e-6 * cfl);
+    EXPECT_FLOAT_EQ(settings_of(scene).simulation.params.longest_dt, 1.0f / scene.time.frame_rate);
+    scene.time.dt = static_cast<float>(0.9 * cfl); // the scene's own steps are shorter
+    EXPECT_FALSE(is_implicit());
+    scene.time.dt.reset();
+    scene.time.frame_rate = static_cast<float>(1.2 / cfl); // and so may a frame be
+    EXPECT_FALSE(is_implicit());
+    scene.physics.viscosity_model = ViscosityModel::Implicit;
+    EXPECT_TRUE(is_implicit());
+    scene.physics.viscosity = 1e4f;
+    scene.physics.viscosity_model = ViscosityModel::Explicit;
+    EXPECT_FALSE(is_implicit());
+    scene.solve = {.viscosity_error = 0.02f, .viscosity_iterations = 7};
+    EXPECT_EQ(settings_of(scene).simulation.params.viscosity_error, 0.02f);
+    EXPECT_EQ(settings_of(scene).simulation.params.viscosity_iterations, 7u);
+}
+
 TEST(FluidSettings, AutomaticStepKeepsTheViscousBound)
 {
     Scene scene = falling_block();
     scene.physics.viscosity = 10'000.0f;
+    scene.physics.viscosity_model = ViscosityModel::Explicit;
     const double bound = 0.06 * 1000.0 * 0.04 / 10'000.0;
     EXPECT_LE(dt_of(scene), bound * (1.0 + 1e-6));
     EXPECT_GT(dt_of(scene), 0.9 * bound);
@@ -172,6 +203,7 @@ TEST(FluidSettings, WarnsOfAStepAboveABoundAndNamesIt)
         << warnings[0];
 
     scene.physics.viscosity = 1000.0f;
+    scene.physics.viscosity_model = ViscosityModel::Explicit;
     warnings = settings_of(scene).warnings;
     ASSERT_EQ(warnings.size(), 2u);
     EXPECT_NE(warnings[1].find("above the viscous bound of 0.0024 s (viscosity 1000 Pa s)"), std::string::npos)

@@ -151,7 +151,7 @@ TEST(FrameStatistics, ColumnsStayWhereTheyAre)
               "frame,time,steps,dt,solid,fluid,dust,collider,dead,mass,kinetic_energy,potential_energy,momentum_x,"
               "momentum_y,momentum_z,com_x,com_y,com_z,min_x,min_y,min_z,max_x,max_y,max_z,density_error_mean,"
               "density_error_max,speed_max,outside,neighbors_mean,simulate_ms,draw_ms,iterations_density,iterations_"
-              "divergence\n");
+              "divergence,iterations_viscosity\n");
 }
 
 TEST(FrameStatistics, EveryValueStandsInItsColumn)
@@ -164,9 +164,10 @@ TEST(FrameStatistics, EveryValueStandsInItsColumn)
     s.neighbors_mean = 31.5;
     s.simulate_ms = 12.3456;
     s.draw_ms = 7.0;
-    EXPECT_EQ(cell(s, "iterations_density") + cell(s, "iterations_divergence"), "");
+    EXPECT_EQ(cell(s, "iterations_density") + cell(s, "iterations_divergence") + cell(s, "iterations_viscosity"), "");
     s.iterations_density = 4.5;
     s.iterations_divergence = 1.25;
+    s.iterations_viscosity = 8.0;
     EXPECT_EQ(cell(s, "frame"), "7");
     EXPECT_EQ(cell(s, "time"), "0.5");
     EXPECT_EQ(cell(s, "steps"), "1234");
@@ -187,6 +188,7 @@ TEST(FrameStatistics, EveryValueStandsInItsColumn)
     EXPECT_EQ(cell(s, "draw_ms"), "7.000");
     EXPECT_EQ(cell(s, "iterations_density"), "4.5");
     EXPECT_EQ(cell(s, "iterations_divergence"), "1.25");
+    EXPECT_EQ(cell(s, "iterations_viscosity"), "8");
 }
 
 TEST(FrameStatistics, UndefinedIsEmpty)

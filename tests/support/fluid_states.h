@@ -36,6 +36,8 @@ inline sim::SimulationSettings test_settings(std::uint32_t kernel)
     params.density_error = 1e-3f;
     params.divergence_error = 1e-3f;
     params.max_iterations = 40;
+    params.viscosity_error = 1e-3f;
+    params.viscosity_iterations = 40;
     params.dt = 2e-4f;
     params.speed_limit = 1000.0f;
     for (float& density : params.rest_density) {
