@@ -424,14 +424,24 @@ mutation "solve: images move like the particles" \
     conformance_tests '*PassConformance.SolvedPressure/LatticeOnTheFloor*'
 mutation "solve: pressures pull" \
     shaders/sim/dfsph_residual.comp \
-    'max(acted + response * excess, 0.0)' \
-    'acted + response * excess' \
+    'float next = max(acted + response * excess, 0.0)' \
+    'float next = acted + response * excess' \
     conformance_tests '*PassConformance.SolvedPressure/Splash*'
 mutation "solve: no warm start" \
     shaders/sim/dfsph_residual.comp \
     '? WARM_START * warm_start' \
     '? 0.0 * warm_start' \
     conformance_tests '*PassConformance.SolvedPressure/Splash*'
+mutation "solve: momentum of half the step" \
+    shaders/sim/dfsph_residual.comp \
+    'next + momentum * (next - before)' \
+    'next + 0.5 * momentum * (next - before)' \
+    conformance_tests '*PassConformance.SolvedPressure/Splash*'
+mutation "solve: no momentum" \
+    shaders/shared/solve.h \
+    'return float(n) / float(n + 3u)' \
+    'return 0.0f * float(n)' \
+    unit_tests 'ReferenceDfsph.IterationsConvergeBelowTheEigenvalue'
 mutation "solve: it never ends" \
     shaders/sim/dfsph_residual.comp \
     'ends = last || (met && push.iteration > 0u)' \

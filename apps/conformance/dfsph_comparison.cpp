@@ -37,10 +37,12 @@ public:
         std::vector<PassError> errors;
         device_.run([&] { dfsph_.record_residual(device_.commands, device_.fluid(), {solve_, 0}); });
         errors.push_back(compare_iterate(twin_.velocity, 0));
+        const std::vector<shared::Solve> going_on = solves();
         device_.run([&] { dfsph_.record_correct(device_.commands, device_.fluid(), solve_); });
         errors.push_back({name_ + ": correction", compare_correction(), pass_bound});
         device_.run([&] { dfsph_.record_residual(device_.commands, device_.fluid(), {solve_, 1}); });
         errors.push_back(compare_iterate(corrected(), 1));
+        errors.push_back(compare_momentum(going_on));
 
         set_warm_start();
         reference::State state = twin_;
@@ -49,8 +51,7 @@ public:
         const gpu::Buffer& velocity = device_.particles.velocity;
         const auto before = gpu::download<glm::vec4>(device_.context, velocity, twin_.size());
         device_.run([&] { dfsph_.record_solve(device_.commands, device_.fluid(), solve_); });
-        const shared::Solve found =
-            gpu::download<shared::Solve>(device_.context, *dfsph_.solves(), shared::SOLVES)[solve_];
+        const shared::Solve found = solves()[solve_];
         errors.push_back({name_ + ": iterations",
                           std::abs(static_cast<double>(found.iterations) - static_cast<double>(expected.iterations)),
                           1.0});
@@ -75,6 +76,11 @@ private:
         device_.run([&] { device_.commands.fill(*dfsph_.solves(), 0); });
     }
 
+    [[nodiscard]] std::vector<shared::Solve> solves() const
+    {
+        return gpu::download<shared::Solve>(device_.context, *dfsph_.solves(), shared::SOLVES);
+    }
+
     [[nodiscard]] std::vector<glm::vec4> interactions() const
     {
         return gpu::download<glm::vec4>(device_.context, device_.particles.interaction, twin_.size());
@@ -90,8 +96,33 @@ private:
         return velocity;
     }
 
-    /// The impulses that a residual pass has left, from the velocities and the iterate that it had.
-    PassError compare_iterate(const std::vector<glm::dvec3>& velocity, std::uint32_t iteration)
+    /// A third iterate, with the momentum of one that comes late in a solve.
+    PassError compare_momentum(std::vector<shared::Solve> going_on)
+    {
+        constexpr std::uint32_t late = 6;
+        going_on[solve_].unrisen = late;
+        gpu::upload<shared::Solve>(device_.context, *dfsph_.solves(), going_on);
+        const std::vector<double> before = jacobi_steps();
+        device_.run([&] { dfsph_.record_correct(device_.commands, device_.fluid(), solve_); });
+        const std::vector<glm::dvec3> velocity = corrected();
+        device_.run([&] { dfsph_.record_residual(device_.commands, device_.fluid(), {solve_, 2}); });
+        return compare_iterate(velocity, 2, before, static_cast<double>(shared::solve_momentum(late)));
+    }
+
+    /// The last iterate without momentum.
+    [[nodiscard]] std::vector<double> jacobi_steps() const
+    {
+        std::vector<double> steps;
+        for (const float step : gpu::download<float>(device_.context, dfsph_.jacobi_step(), twin_.size())) {
+            steps.push_back(static_cast<double>(step) / scale_);
+        }
+        return steps;
+    }
+
+    /// The impulses that a residual pass has left, from the velocities and the iterate that it had; `before` is the
+    /// iterate that its momentum goes on from.
+    PassError compare_iterate(const std::vector<glm::dvec3>& velocity, std::uint32_t iteration,
+                              const std::vector<double>& before = {}, double momentum = 0.0)
     {
         const std::vector<glm::vec4> found = interactions();
         RelativeError error;
@@ -108,7 +139,8 @@ private:
             const double start = iteration == 0
                                      ? reference::first_impulse(settings_, excess.value, warm_start_[i], solve_)
                                      : impulse_[i];
-            const double next = reference::next_impulse(settings_, twin_, diagonal_[i], excess.value, start, i);
+            const double step = reference::next_impulse(settings_, twin_, diagonal_[i], excess.value, start, i);
+            const double next = before.empty() ? step : reference::with_momentum(step, before[i], momentum);
             const double magnitude =
                 reference::next_impulse(settings_, twin_, diagonal_[i], excess.magnitude, start, i);
             error.add(static_cast<double>(found[i].x) / scale_ - next, magnitude);
@@ -117,7 +149,10 @@ private:
         for (std::size_t i = 0; i < twin_.size(); ++i) {
             impulse_[i] = static_cast<double>(found[i].x) / scale_;
         }
-        return {name_ + (iteration == 0 ? ": first iterate" : ": second iterate"), error.value(), pass_bound, excluded};
+        return {name_ + (iteration == 0   ? ": first iterate"
+                         : iteration == 1 ? ": second iterate"
+                                          : ": momentum"),
+                error.value(), pass_bound, excluded};
     }
 
     /// Whether rounding decides that there is nothing to take away.

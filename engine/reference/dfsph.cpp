@@ -96,6 +96,11 @@ double first_impulse(const Settings& settings, double excess, double warm_start,
     return excess > 0.0 ? static_cast<double>(shared::WARM_START) * warm_start / unit : 0.0;
 }
 
+double with_momentum(double impulse, double before, double momentum)
+{
+    return std::max(impulse + momentum * (impulse - before), 0.0);
+}
+
 SolveResult solve(const Settings& settings, State& state, const Neighbors& neighbors, std::uint32_t solve,
                   std::vector<double>& warm_start)
 {
@@ -103,8 +108,10 @@ SolveResult solve(const Settings& settings, State& state, const Neighbors& neigh
     const double target = static_cast<double>(solve == shared::SOLVE_DENSITY ? settings.params.density_error
                                                                              : settings.params.divergence_error);
     std::vector<double> diagonal(count, 0.0);
-    std::vector<double> impulse(count, 0.0);
-    std::vector<double> acted(count, 0.0); // what the velocities have in them
+    std::vector<double> impulse(count, 0.0); // of the Jacobi steps
+    std::vector<double> ahead(count, 0.0);   // with momentum
+    std::vector<double> acted(count, 0.0);   // what the velocities have in them
+    std::uint32_t unrisen = 0;
     std::vector<double> errors(count, 0.0);
     std::vector<glm::dvec3> velocity = state.velocity;
     std::size_t fluid = 0;
@@ -121,22 +128,28 @@ SolveResult solve(const Settings& settings, State& state, const Neighbors& neigh
             if (result.iterations == 0) {
                 diagonal[i] = jacobi_diagonal(settings, state, neighbors, i);
                 impulse[i] = first_impulse(settings, e, warm_start[i], solve);
+                ahead[i] = impulse[i];
             }
-            acted[i] = impulse[i];
-            impulse[i] = next_impulse(settings, state, diagonal[i], e, impulse[i], i);
+            acted[i] = ahead[i];
+            const double before = impulse[i];
+            impulse[i] = next_impulse(settings, state, diagonal[i], e, acted[i], i);
+            const double momentum = result.iterations == 0 ? 0.0 : static_cast<double>(shared::solve_momentum(unrisen));
+            ahead[i] = with_momentum(impulse[i], before, momentum);
             errors[i] = std::max(e, 0.0);
         });
         double sum = 0.0;
         for (const double error : errors) {
             sum += error;
         }
-        result.error = fluid > 0 ? sum / static_cast<double>(fluid) : 0.0;
+        const double error = fluid > 0 ? sum / static_cast<double>(fluid) : 0.0;
+        unrisen = result.iterations == 0 || error > result.error ? 0 : unrisen + 1;
+        result.error = error;
         if (result.iterations >= settings.params.max_iterations || (result.iterations > 0 && result.error <= target)) {
             break;
         }
         parallel_for(count, [&](std::size_t i) {
             if (!is_boundary(state, i)) {
-                velocity[i] = state.velocity[i] + velocity_correction(settings, state, neighbors, impulse, i).value;
+                velocity[i] = state.velocity[i] + velocity_correction(settings, state, neighbors, ahead, i).value;
             }
         });
     }

@@ -40,8 +40,11 @@ struct ScalarSum {
 [[nodiscard]] double next_impulse(const Settings& settings, const State& state, double diagonal, double excess,
                                   double impulse, std::size_t i);
 
-/// The first iterate: a part of what the step before has found, where there is anything to take away. warm_start: the
-/// impulse of the last divergence solve, or dt times that of the last density solve.
+/// An iterate with momentum: on beyond the step from the one before (Nesterov 1983).
+[[nodiscard]] double with_momentum(double impulse, double before, double momentum);
+
+/// What a solve starts from: a part of what the step before has found, where there is anything to take away.
+/// warm_start: the impulse of the last divergence solve, or dt times that of the last density solve.
 [[nodiscard]] double first_impulse(const Settings& settings, double excess, double warm_start, std::uint32_t solve);
 
 /// By shared::SOLVE_*, one number a particle in id order: what first_impulse starts from.

@@ -35,6 +35,7 @@ Dfsph::Dfsph(const gpu::Context& context, const FluidOptions& options, const sha
       corrected_velocity_(gpu::make_texel_buffer(context, particles_, "velocity")),
       warm_start_(gpu::make_buffer<glm::vec2>(context, particles_, "warm start")),
       sorted_warm_start_(gpu::make_buffer<glm::vec2>(context, particles_, "warm start")),
+      jacobi_step_(gpu::make_buffer<float>(context, particles_, "Jacobi step")),
       solves_(gpu::make_buffer<shared::Solve>(context, shared::SOLVES, "solves"))
 {
     const std::uint32_t tile = fluid_constants(context.info(), options)[1].value;
@@ -117,7 +118,8 @@ void Dfsph::record_residual(gpu::Commands& commands, const Fluid& fluid, shared:
                                                        read_write(warm_start_),
                                                        read_write(errors_),
                                                        read_write(solves_),
-                                                       read(fluid.grid.neighbor_bits)};
+                                                       read(fluid.grid.neighbor_bits),
+                                                       read_write(jacobi_step_)};
     if (push.iteration == 0) {
         commands.dispatch(residual_, fluid.kernels.tiles(particles.count), push, bindings);
     } else {
@@ -138,8 +140,8 @@ void Dfsph::record_solve(gpu::Commands& commands, const Fluid& fluid, std::uint3
 
 std::uint64_t Dfsph::device_bytes() const
 {
-    return corrected_velocity_.size() + warm_start_.size() + sorted_warm_start_.size() + errors_.size() +
-           solves_.size();
+    return corrected_velocity_.size() + warm_start_.size() + sorted_warm_start_.size() + jacobi_step_.size() +
+           errors_.size() + solves_.size();
 }
 
 } // namespace meltpoint::sim

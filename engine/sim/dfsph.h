@@ -37,6 +37,8 @@ public:
     [[nodiscard]] const gpu::Buffer& corrected_velocity() const { return corrected_velocity_; }
     /// By shared::SOLVE_*, of the last solves: the impulses that have acted, and dt times these, over gradient_scale.
     [[nodiscard]] const gpu::Buffer& warm_start() const { return warm_start_; }
+    /// The last iterate without momentum, over gradient_scale.
+    [[nodiscard]] const gpu::Buffer& jacobi_step() const { return jacobi_step_; }
 
 private:
     std::uint32_t max_iterations_;
@@ -48,6 +50,7 @@ private:
     gpu::Buffer corrected_velocity_; ///< vec4 a particle, swapped with the velocities after a solve
     gpu::Buffer warm_start_;         ///< vec2 a particle: one float a solve
     gpu::Buffer sorted_warm_start_;  ///< where reorder writes
+    gpu::Buffer jacobi_step_;        ///< float a particle: the last iterate without momentum
     gpu::Buffer errors_;             ///< vec2 a workgroup
     gpu::Buffer solves_;             ///< shared::Solve[SOLVES]
 };
