@@ -9,9 +9,9 @@ int main(int argc, char** argv)
     try {
         const meltpoint::Scene scene = meltpoint::mesh_scene(argc > 1 ? argv[1] : "builtin:teapot"); // loads the mesh
         const meltpoint::gpu::Context context;
-        auto [simulation, params, warnings] = meltpoint::start_scene(context, scene); // about 16,000 particles
-        simulation->advance(10);
-        const auto fluid = meltpoint::measure(simulation->download(), params).fluid_part.value();
+        auto started = meltpoint::start_scene(context, scene); // about 16,000 particles
+        started.simulation->advance(10);
+        const auto fluid = meltpoint::measure(started.simulation->download(), started.params).fluid_part.value();
         std::printf("%g %g %g\n", fluid.center_of_mass.x, fluid.center_of_mass.y, fluid.center_of_mass.z);
     } catch (const meltpoint::Error& error) {
         std::fprintf(stderr, "%s\n", error.what());

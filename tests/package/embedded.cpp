@@ -188,8 +188,8 @@ void run()
     const gpu::Context context(create_device(host, info, features12, features13, queue)); // destroyed before the host
 
     const std::vector<std::string> overrides{"particles.spacing=0.03"};
-    auto [simulation, params, warnings] =
-        meltpoint::start_scene(context, meltpoint::find_scene("teapot_drop", overrides));
+    auto started = meltpoint::start_scene(context, meltpoint::find_scene("teapot_drop", overrides));
+    auto& simulation = started.simulation;
     const std::uint32_t count = simulation->particles().count;
     create_buffer(host, count * sizeof(glm::vec4));
 
@@ -214,7 +214,7 @@ void run()
         check(vkResetFences(host.device, 1, &host.fence), "device lost");
 
         const glm::dvec3 center = center_of_mass(host.mapped, count);
-        const auto fluid = meltpoint::measure(before, params).fluid_part.value();
+        const auto fluid = meltpoint::measure(before, started.params).fluid_part.value();
         std::printf("%.9g %.9g %.9g\n", center.x, center.y, center.z);
         if (!(glm::distance(center, fluid.center_of_mass) < 1e-9)) {
             throw std::runtime_error("the host does not see the particles that the engine sees");
