@@ -100,7 +100,7 @@ void Dfsph::record_correct(gpu::Commands& commands, const Fluid& fluid, std::uin
                                {read(fluid.params), read(fluid.grid.cell_start), read(particles.position),
                                 read(particles.position), read(particles.interaction), read(particles.interaction),
                                 read(particles.attributes), read(particles.velocity), write(corrected_velocity_),
-                                read(fluid.grid.neighbor_bits)});
+                                read(fluid.grid.neighbor_bits), read(particles.velocity)});
 }
 
 void Dfsph::record_residual(gpu::Commands& commands, const Fluid& fluid, shared::ResidualPush push)
@@ -119,7 +119,8 @@ void Dfsph::record_residual(gpu::Commands& commands, const Fluid& fluid, shared:
                                                        read_write(errors_),
                                                        read_write(solves_),
                                                        read(fluid.grid.neighbor_bits),
-                                                       read_write(jacobi_step_)};
+                                                       read_write(jacobi_step_),
+                                                       read(particles.interaction)};
     if (push.iteration == 0) {
         commands.dispatch(residual_, fluid.kernels.tiles(particles.count), push, bindings);
     } else {

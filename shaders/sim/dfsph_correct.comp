@@ -19,6 +19,7 @@ layout(set = 0, binding = 4, scalar) readonly buffer Interaction { vec4 interact
 layout(set = 0, binding = 5) uniform textureBuffer interaction_texels;
 layout(set = 0, binding = 6, scalar) readonly buffer Attributes { uint attributes[]; };
 layout(set = 0, binding = 7, scalar) readonly buffer Velocity { vec4 velocity[]; };   // before the solve; w: mass
+layout(set = 0, binding = 10) uniform textureBuffer velocity_texels;
 layout(set = 0, binding = 8, scalar) writeonly buffer Corrected { vec4 corrected[]; }; // likewise
 
 #include "include/boundary.glsl"
@@ -68,7 +69,7 @@ void main()
         if (i > tile.last) {
             break;
         }
-        vec4 v = velocity[i];
+        vec4 v = load_candidate(velocity, i);
         corrected[i] = is_boundary(attributes[i]) ? v : vec4(v.xyz + impulse[k] / v.w, v.w);
     }
 }

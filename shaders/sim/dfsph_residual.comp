@@ -24,6 +24,7 @@ layout(set = 0, binding = 4, scalar) readonly buffer Velocity { vec4 velocity[];
 layout(set = 0, binding = 5) uniform textureBuffer velocity_texels;
 layout(set = 0, binding = 6, scalar) readonly buffer Attributes { uint attributes[]; };
 layout(set = 0, binding = 7, scalar) buffer Interaction { vec4 interaction[]; };
+layout(set = 0, binding = 13) uniform textureBuffer interaction_texels;
 layout(set = 0, binding = 8, scalar) buffer WarmStart { vec2 warm_start[]; };    // by SOLVE_*: X gradient_scale, times dt for density
 layout(set = 0, binding = 12, scalar) buffer JacobiStep { float jacobi_step[]; }; // the last iterate without momentum, as interaction's x
 layout(set = 0, binding = 9, scalar) coherent buffer Errors { vec2 errors[]; }; // a workgroup: sum over fluid particles, their number
@@ -98,8 +99,8 @@ void main()
             if (i > tile.last || is_boundary(attributes[i])) {
                 continue;
             }
-            vec4 its_interaction = interaction[i];
-            float rest_volume = velocity[i].w / params.rest_density[particle_material(attributes[i])];
+            vec4 its_interaction = load_candidate(interaction, i);
+            float rest_volume = load_candidate(velocity, i).w / params.rest_density[particle_material(attributes[i])];
             float compression = rest_volume / its_interaction.y;                           // rho / rho0
             float change = params.dt * rest_volume * params.gradient_scale * rate[k];      // of it, in this step
             float excess = push.solve == SOLVE_DENSITY ? compression - 1.0 + change : (compression > DIVERGENCE_FILL ? change : 0.0);
@@ -117,8 +118,7 @@ void main()
             float response = params.solve_relaxation * params.gradient_scale * its_interaction.w / (params.dt * rest_volume);
             float next = max(acted + response * excess, 0.0);
             jacobi_step[i] = next;
-            its_interaction.x = max(next + momentum * (next - before), 0.0);
-            interaction[i] = its_interaction;
+            interaction[i].x = max(next + momentum * (next - before), 0.0);
             error += vec2(max(excess, 0.0), 1.0);
         }
     }
