@@ -199,10 +199,11 @@ FluidSettings fluid_settings(const Scene& scene, const ParticleSet& particles)
     }
     check_step_count(scene, dt);
     if (dt > bounds.cfl * (1.0 + 1e-6)) {
-        settings.warnings.push_back(
-            fmt::format("time.dt is {:.4g} s, above the CFL bound of {:.4g} s (speed of sound {:.4g} m/s, expected "
-                        "speed {:.4g} m/s, support radius {:.4g} m): the run may break down",
-                        dt, bounds.cfl, params.speed_of_sound, speed, params.support_radius));
+        settings.warnings.push_back(fmt::format(
+            "time.dt is {:.4g} s, above the CFL bound of {:.4g} s ({}expected speed {:.4g} m/s, support radius "
+            "{:.4g} m): the run may break down",
+            dt, bounds.cfl, solved ? "" : fmt::format("speed of sound {:.4g} m/s, ", params.speed_of_sound), speed,
+            params.support_radius));
     }
     if (dt > bounds.viscosity * (1.0 + 1e-6)) {
         settings.warnings.push_back(

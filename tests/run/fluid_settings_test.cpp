@@ -209,6 +209,14 @@ TEST(FluidSettings, WarnsOfAStepAboveABoundAndNamesIt)
     EXPECT_NE(warnings[1].find("above the viscous bound of 0.0024 s (viscosity 1000 Pa s)"), std::string::npos)
         << warnings[1];
 
+    scene.physics.viscosity = 0.0f;
+    scene.solver = Solver::Dfsph; // no sound
+    scene.time.dt = 0.01f;
+    warnings = settings_of(scene).warnings;
+    ASSERT_EQ(warnings.size(), 1u);
+    EXPECT_NE(warnings[0].find("above the CFL bound of 0.005 s (expected speed 4.75 m/s"), std::string::npos)
+        << warnings[0];
+
     scene.time.dt = 0.0005f;
     EXPECT_TRUE(settings_of(scene).warnings.empty());
     EXPECT_EQ(settings_of(scene).simulation.params.dt, 0.0005f);
