@@ -482,6 +482,11 @@ mutation "neighbor bits: a chunk without a word forgets its last candidate" \
     '~0u >> (CHUNK - (chunk.end - chunk.first))' \
     '~0u >> (CHUNK - (chunk.end - chunk.first)) >> 1u' \
     conformance_tests 'NeighborBits.NothingDependsOnHowManyThereIsRoomFor'
+mutation "neighbor bits: neighbors of the second chunk are taken from the first" \
+    shaders/include/neighbor_bits.glsl \
+    'chunks.first = none ? chunks.last.first : chunks.first;' \
+    '' \
+    conformance_tests '*PassConformance.EachForceAlone/Splash*'
 mutation "neighbor bits: every chunk shares a word with the tile before" \
     shaders/include/neighbor_bits.glsl \
     '(params.particle_count + TILE - 1u) / TILE : 0u' \

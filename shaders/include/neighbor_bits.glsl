@@ -28,7 +28,7 @@ struct Chunk {
 
 const Chunk NO_CHUNK = Chunk(0u, 0u, 0u, 0u);
 
-// The next chunk of the row, or the first of the next row; false when there are no more. The words of neighboring tiles lie
+// The next chunk of the row, or the first of the next row; false, and an empty one, when there are no more. The words of neighboring tiles lie
 // side by side.
 bool next_chunk(inout Tile tile, inout Walk walk, inout Chunk chunk)
 {
@@ -37,6 +37,7 @@ bool next_chunk(inout Tile tile, inout Walk walk, inout Chunk chunk)
     if (rest.x == rest.y) {
         found = next_range(walk, rest);
     }
+    rest = found ? rest : uvec2(0u);
     chunk = Chunk(rest.x, min(rest.x + CHUNK, rest.y), rest.y, tile.next_word);
     tile.next_word += found ? (params.particle_count + TILE - 1u) / TILE : 0u;
     return found;
@@ -75,9 +76,41 @@ uint neighbors(Chunk chunk, vec3 x[TILE])
 }
 #endif
 
-// for every candidate chunk.first + findLSB(bits) that is a neighbor of one of the positions x, in ascending order
-#define FOR_EACH_NEIGHBOR(tile, walk, x, chunk, bits)                                                                 \
-    for (Chunk chunk = NO_CHUNK; next_chunk(tile, walk, chunk);)                                                       \
-        for (uint bits = neighbors(chunk, x); bits != 0u; bits &= bits - 1u)
+// Two chunks whose neighbors are met in one loop: invocations that run in step wait for the one with the most neighbors in each
+// loop, and two chunks together differ less than each for itself.
+struct Chunks {
+    Chunk last;     // the second one
+    uint first;     // of the candidates that `bits` are of
+    uint bits;      // neighbors that are left of the first chunk, then of the second
+    uint last_bits; // those of the second one until then
+};
+
+const Chunks NO_CHUNKS = Chunks(NO_CHUNK, 0u, 0u, 0u);
+
+// bits, or those of the second chunk where there are no more.
+uint turn_over(inout Chunks chunks, uint bits)
+{
+    bool none = bits == 0u;
+    chunks.first = none ? chunks.last.first : chunks.first;
+    bits = none ? chunks.last_bits : bits;
+    chunks.last_bits = none ? 0u : chunks.last_bits;
+    return bits;
+}
+
+bool next_chunks(inout Tile tile, inout Walk walk, vec3 x[TILE], inout Chunks chunks)
+{
+    bool found = next_chunk(tile, walk, chunks.last);
+    chunks.first = chunks.last.first;
+    uint bits = found ? neighbors(chunks.last, x) : 0u;
+    bool both = next_chunk(tile, walk, chunks.last);
+    chunks.last_bits = both ? neighbors(chunks.last, x) : 0u;
+    chunks.bits = turn_over(chunks, bits);
+    return found;
+}
+
+// for every candidate chunks.first + findLSB(bits) that is a neighbor of one of the positions x, in ascending order
+#define FOR_EACH_NEIGHBOR(tile, walk, x, chunks, bits)                                                                \
+    for (Chunks chunks = NO_CHUNKS; next_chunks(tile, walk, x, chunks);)                                               \
+        for (uint bits = chunks.bits; bits != 0u; bits = turn_over(chunks, bits & (bits - 1u)))
 
 #endif

@@ -44,8 +44,8 @@ void add_viscous_forces(vec4 own[TILE], Tile tile, out ViscousForce total[TILE])
             off_diagonal[k] = vec3(0.0);
         }
         Walk walk = begin_walk(x);
-        FOR_EACH_NEIGHBOR(tile, walk, x, chunk, bits) {
-            uint j = chunk.first + findLSB(bits);
+        FOR_EACH_NEIGHBOR(tile, walk, x, chunks, bits) {
+            uint j = chunks.first + findLSB(bits);
             vec4 xj = load_candidate(position, j);
             vec4 pj = load_candidate(direction, j);
             float viscous_term_j = load_candidate(interaction, j).z;

@@ -70,8 +70,8 @@ void main()
             image_gradient[k] = vec3(0.0);
         }
         Walk walk = begin_walk(x);
-        FOR_EACH_NEIGHBOR(tile, walk, x, chunk, bits) {
-            uint j = chunk.first + findLSB(bits);
+        FOR_EACH_NEIGHBOR(tile, walk, x, chunks, bits) {
+            uint j = chunks.first + findLSB(bits);
             vec4 xj = load_candidate(position, j);
             float inverse_mass = SOLVED_PRESSURE ? load_candidate(velocity, j).w : 0.0;
             inverse_mass = inverse_mass > 0.0 ? 1.0 / inverse_mass : 0.0;

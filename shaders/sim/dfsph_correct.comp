@@ -49,8 +49,8 @@ void main()
             image_impulse[k] = vec3(0.0);
         }
         Walk walk = begin_walk(x);
-        FOR_EACH_NEIGHBOR(tile, walk, x, chunk, bits) {
-            uint j = chunk.first + findLSB(bits);
+        FOR_EACH_NEIGHBOR(tile, walk, x, chunks, bits) {
+            uint j = chunks.first + findLSB(bits);
             vec4 xj = load_candidate(position, j);
             float pressure_term_j = load_candidate(interaction, j).x;
             [[unroll]] for (uint k = 0u; k < TILE; ++k) {

@@ -57,8 +57,8 @@ void number_density_rates(vec4 own[TILE], Tile tile, out float rate[TILE])
             v[k] *= flips;
         }
         Walk walk = begin_walk(x);
-        FOR_EACH_NEIGHBOR(tile, walk, x, chunk, bits) {
-            uint j = chunk.first + findLSB(bits);
+        FOR_EACH_NEIGHBOR(tile, walk, x, chunks, bits) {
+            uint j = chunks.first + findLSB(bits);
             vec4 xj = load_candidate(position, j);
             vec3 vj = load_candidate(velocity, j).xyz;
             [[unroll]] for (uint k = 0u; k < TILE; ++k) {

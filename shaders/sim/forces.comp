@@ -99,8 +99,8 @@ void main()
             image_gradient[k] = vec3(0.0);
         }
         Walk walk = begin_walk(x);
-        FOR_EACH_NEIGHBOR(tile, walk, x, chunk, bits) {
-            uint j = chunk.first + findLSB(bits);
+        FOR_EACH_NEIGHBOR(tile, walk, x, chunks, bits) {
+            uint j = chunks.first + findLSB(bits);
             vec4 xj = load_candidate(position, j);
             vec3 vj = load_candidate(velocity, j).xyz;
             vec3 interaction_j = load_candidate(interaction, j).xyz;
