@@ -808,6 +808,19 @@ mutation "viscosity: the force stays where it is solved for" \
     'interaction_j.z' \
     conformance_tests 'States/PassConformance.SolvedViscosity/RandomWendland'
 
+# --- named liquids ------------------------------------------------------------------------------------------------------
+
+mutation "liquids: the viscosity that stands in the scene does not count" \
+    engine/scene/scene_builder.cpp \
+    'liquid == nullptr || find("physics.viscosity") != nullptr' \
+    'liquid == nullptr' \
+    unit_tests 'SceneFile.*Liquid*'
+mutation "liquids: the last one gives a scene of two its viscosity" \
+    engine/scene/scene_builder.cpp \
+    'liquid->viscosity != first->viscosity' \
+    'false' \
+    unit_tests 'SceneFile.LiquidsHaveOneViscosity'
+
 # --- the machinery ------------------------------------------------------------------------------------------------------
 
 source_dir=build/mutations/source

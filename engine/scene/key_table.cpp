@@ -4,6 +4,8 @@
 #include <type_traits>
 #include <utility>
 
+#include "scene/liquids.h"
+
 namespace meltpoint {
 
 namespace {
@@ -315,10 +317,31 @@ std::vector<Key<Body>> with_shape_keys(std::string_view description, const std::
     return keys;
 }
 
+/// Setting it gives the body the liquid's values.
+FluidKey liquid_key()
+{
+    std::vector<std::pair<std::string_view, std::string>> words{{"custom", "custom"}};
+    for (const Liquid& liquid : liquids()) {
+        words.emplace_back(liquid.name, liquid.name);
+    }
+    FluidKey result = choice<FluidBody>("liquid", FIELD(liquid), words,
+        "what it is: gives rest_density, color and physics.viscosity the values below, unless they stand in the scene; custom: nothing");
+    result.set = [set = result.set](FluidBody& body, const SceneValue& value) {
+        const Liquid* liquid = find_liquid(std::get<std::string>(value.data));
+        if (liquid != nullptr) {
+            set_liquid(body, *liquid);
+        } else {
+            set(body, value);
+        }
+    };
+    return result;
+}
+
 std::vector<FluidKey> make_fluid_keys()
 {
     const auto k = [](auto... arguments) { return key<FluidBody>(arguments...); };
     return with_shape_keys<FluidBody>("where the fluid starts; each shape has keys of its own", {
+        liquid_key(),
         choice<FluidBody>("lattice", FIELD(lattice), {{"cubic", FluidLattice::Cubic}, {"blue-noise", FluidLattice::BlueNoise}}, "how its particles lie at the start: in rows, or evenly without any, relaxed until the density varies by 1 %"),
         k("rest_density", FIELD(rest_density), "kg/m^3", Range{1e-3, 1e5}, "density without pressure"),
         k("velocity", FIELD(velocity), "m/s", SPEED, "at the start, of the whole body"),

@@ -89,6 +89,7 @@ enum class FluidLattice { Cubic, BlueNoise };
 /// A shape filled with fluid.
 struct FluidBody {
     BodyShape shape;
+    std::string liquid = "custom";              ///< what its values were taken from (scene/liquids.h), or "custom"
     FluidLattice lattice = FluidLattice::Cubic; ///< how its particles lie at the start
     float rest_density = 1000.0f;               ///< kg/m^3
     glm::vec3 velocity{0.0f};                   ///< m/s

@@ -10,6 +10,7 @@
 #include "core/error.h"
 #include "core/nearest_name.h"
 #include "scene/key_table.h"
+#include "scene/liquids.h"
 
 namespace meltpoint {
 
@@ -135,6 +136,7 @@ public:
         }
         for_each_body(
             [&](const std::string& path, auto& body, const auto& keys) { set_shape(path, body, keys.front()); });
+        set_liquids();
         for (const TomlEntry& entry : entries_) {
             if (entry.kind == TomlEntryKind::Value) {
                 set(entry);
@@ -229,6 +231,32 @@ private:
         set_value(key, body, *shape);
     }
 
+    /// The values of named liquids, before those that stand in the scene.
+    void set_liquids()
+    {
+        const FluidKey& key = *find_key(fluid_keys(), "liquid");
+        const Liquid* first = nullptr;
+        for (std::size_t i = 0; i < scene_.fluids.size(); ++i) {
+            const TomlEntry* entry = find(fmt::format("fluid.{}.liquid", i));
+            if (entry == nullptr) {
+                continue;
+            }
+            set_value(key, scene_.fluids[i], *entry);
+            const Liquid* liquid = find_liquid(scene_.fluids[i].liquid);
+            if (liquid == nullptr || find("physics.viscosity") != nullptr) {
+                continue;
+            }
+            first = first == nullptr ? liquid : first;
+            if (liquid->viscosity != first->viscosity) {
+                fail(*entry,
+                     fmt::format("is \"{}\" of {:.4g} Pa s, but another fluid is {} of {:.4g} Pa s; all fluids of a "
+                                 "scene have one viscosity: set physics.viscosity to what it shall be",
+                                 liquid->name, liquid->viscosity, first->name, first->viscosity));
+            }
+            scene_.physics.viscosity = liquid->viscosity;
+        }
+    }
+
     template <class Owner>
     void set_value(const Key<Owner>& key, Owner& owner, const TomlEntry& entry)
     {
@@ -258,7 +286,7 @@ private:
     void set_in_body(const TomlEntry& entry, std::string_view list, Body& body, std::span<const Key<Body>> keys,
                      const Key<Body>& key)
     {
-        if (key.name == "shape") {
+        if (key.name == "shape" || key.name == "liquid") {
             return; // set before all others
         }
         const std::string_view shape = shape_name(body.shape);

@@ -12,6 +12,7 @@
 #include "core/error.h"
 #include "core/random.h"
 #include "scene/key_table.h"
+#include "scene/liquids.h"
 #include "scene/scene_check.h"
 #include "scene/scene_reference.h"
 #include "support/scratch_folder.h"
@@ -665,6 +666,49 @@ TEST(BuiltinScenes, AreTheFilesOfTheFolder)
               "no built-in scene is called \"teapot_drip\"; did you mean \"teapot_drop\"?");
     EXPECT_EQ(complaint_of([] { builtin_scene("x"); }),
               fmt::format("no built-in scene is called \"x\"; there are {}", fmt::join(builtin_scene_names(), ", ")));
+}
+
+TEST(SceneFile, NamedLiquidsGiveWhatTheSceneDoesNot)
+{
+    const std::string honey = std::string(BLOCK) + "liquid = \"honey\"\n";
+    EXPECT_EQ(parse(honey).fluids[0].rest_density, 1400.0f);
+    EXPECT_EQ(parse(honey).physics.viscosity, 10.0f);
+    EXPECT_EQ(parse(honey).fluids[0].color, find_liquid("honey")->color);
+    EXPECT_EQ(parse(BLOCK).fluids[0].liquid, "custom");
+    EXPECT_EQ(parse(BLOCK).fluids[0].rest_density, FluidBody{}.rest_density);
+    EXPECT_EQ(parse(BLOCK).physics.viscosity, FluidPhysics{}.viscosity);
+
+    // What stands in the scene counts, wherever it stands, and so does an override.
+    const Scene warm = parse("[physics]\nviscosity = 3.0\n" + std::string(BLOCK) + "rest_density = 1350\nliquid = \"honey\"\n");
+    EXPECT_EQ(warm.fluids[0].rest_density, 1350.0f);
+    EXPECT_EQ(warm.physics.viscosity, 3.0f);
+    const Scene lava = parse(honey, {"fluid.0.liquid=lava", "fluid.0.rest_density=2500"});
+    EXPECT_EQ(lava.fluids[0].rest_density, 2500.0f);
+    EXPECT_EQ(lava.physics.viscosity, 100.0f);
+    EXPECT_EQ(parse(honey, {"physics.viscosity=7"}).physics.viscosity, 7.0f);
+
+    // Written and read again it is the same.
+    EXPECT_EQ(write_scene(parse(write_scene(warm))), write_scene(warm));
+}
+
+TEST(SceneFile, LiquidsHaveOneViscosity)
+{
+    const std::string two = std::string(BLOCK) + "liquid = \"oil\"\n" + BLOCK + "liquid = \"water\"\n";
+    EXPECT_NE(complaint_of([&] { parse(two); })
+                  .find("\"fluid.1.liquid\" is \"water\" of 0.001002 Pa s, but another fluid is oil of 0.084 Pa s"),
+              std::string::npos)
+        << complaint_of([&] { parse(two); });
+    const Scene scene = parse(two, {"physics.viscosity=0.01"});
+    EXPECT_EQ(scene.fluids[0].rest_density, 912.0f);
+    EXPECT_EQ(scene.fluids[1].rest_density, 998.2f);
+    EXPECT_EQ(scene.physics.viscosity, 0.01f);
+}
+
+TEST(SceneFile, AnUnknownLiquidIsToldTheNearestOne)
+{
+    const std::string complaint = complaint_of([] { parse(std::string(BLOCK) + "liquid = \"hony\"\n"); });
+    EXPECT_NE(complaint.find("did you mean \"honey\"?"), std::string::npos) << complaint;
+    EXPECT_NE(complaint.find("\"custom\", \"water\", \"oil\""), std::string::npos) << complaint;
 }
 
 TEST(SceneReference, IsUpToDate)
