@@ -228,6 +228,9 @@ private:
         device_.run([&] { viscosity_.record_solve(device_.commands, fluid); });
         const auto found = gpu::download<shared::Solve>(device_.context, viscosity_.state(), 1)[0];
         const Vectors after = download(velocity);
+        const Vectors kept = download(viscosity_.change());
+        const double dt = static_cast<double>(device_.params.dt);
+        RelativeError kept_error;
         double difference = 0.0;
         double change = 0.0;
         double momentum = 0.0;
@@ -235,6 +238,7 @@ private:
             const auto squared = [&](const glm::dvec3& v) {
                 return twin_.mass[i] * glm::dot(v, v);
             };
+            kept_error.add(glm::length(dt * kept[i] - (after[i] - twin_.velocity[i])), glm::length(twin_.velocity[i]));
             difference += squared(after[i] - state.velocity[i]);
             change += squared(state.velocity[i] - twin_.velocity[i]);
             momentum += squared(twin_.velocity[i]);
@@ -242,6 +246,7 @@ private:
         gpu::upload<glm::vec4>(device_.context, device_.particles.velocity, velocity_);
         return {{"viscosity solve: velocities", reference::viscosity_error(difference, change, momentum),
                  2.0 * static_cast<double>(device_.params.viscosity_error) + pass_bound},
+                {"viscosity solve: kept for the next step", kept_error.value(), pass_bound},
                 {"viscosity solve: iterations",
                  std::abs(static_cast<double>(found.iterations) - static_cast<double>(expected.iterations)), 1.0}};
     }
