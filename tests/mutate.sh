@@ -447,6 +447,76 @@ mutation "solve: it never ends" \
     'ends = last || (met && push.iteration > 0u)' \
     'ends = last' \
     conformance_tests '*PassConformance.SolvedPressure/Lattice*'
+mutation "pbf: corrections pull one way" \
+    shaders/sim/pbf_correct.comp \
+    'terms[k] * xj.w + terms_j' \
+    '2.0 * terms_j' \
+    conformance_tests '*PassConformance.SolvedPositions/Splash*'
+mutation "pbf: masses do not count" \
+    shaders/sim/pbf_correct.comp \
+    'change[k] / velocity[i].w' \
+    'change[k] / velocity[tile.first].w' \
+    conformance_tests 'Steps.MomentumIsConserved'
+mutation "pbf: pairs that were no neighbors meet" \
+    shaders/include/moved_walk.glsl \
+    'dot(offset, offset) < params.support_radius * params.support_radius' \
+    'dot(offset, offset) < 4.0 * params.support_radius * params.support_radius' \
+    conformance_tests 'Steps.RerunsAndTileSizes*'
+mutation "pbf: no softness" \
+    shaders/sim/pbf_residual.comp \
+    '+ params.constraint_softness) / mass' \
+    ') / mass' \
+    conformance_tests '*PassConformance.SolvedPositions/Splash*'
+mutation "pbf: artificial pressure to the second power" \
+    shaders/sim/pbf_correct.comp \
+    'both.y * near * near' \
+    'both.y * near' \
+    conformance_tests '*PassConformance.SolvedPositions/Splash*'
+mutation "pbf: pressures pull" \
+    shaders/sim/pbf_residual.comp \
+    '? max(excess, 0.0) : excess' \
+    '? excess : excess' \
+    conformance_tests '*PassConformance.SolvedPositions/Splash*'
+mutation "pbf: iterations end early" \
+    shaders/sim/pbf_residual.comp \
+    'push.iteration >= params.least_iterations' \
+    'push.iteration >= 1u' \
+    physics_short_tests 'PositionBased.SetIterations*'
+mutation "pbf: no speed cap" \
+    shaders/sim/pbf_finish.comp \
+    'if (speed > limit)' \
+    'if (speed > 2.0 * limit)' \
+    physics_short_tests 'PositionBased.SetIterations*'
+mutation "pbf: velocities do not see the moves" \
+    shaders/sim/pbf_finish.comp \
+    'velocity[i].xyz + its_move / params.dt' \
+    'velocity[i].xyz + 0.8 * its_move / params.dt' \
+    physics_short_tests 'PositionBased.StillWater*'
+mutation "pbf: walls let moves through" \
+    shaders/sim/pbf_move.comp \
+    'its_move = with_contact(its_position.xyz, its_move, 1.0)' \
+    'its_move = its_move' \
+    conformance_tests '*PassConformance.SolvedPositions/InTheCorners*'
+mutation "xsph: images move like the particles" \
+    shaders/sim/xsph.comp \
+    'v[k] *= flips' \
+    'v[k] *= abs(flips)' \
+    conformance_tests '*PassConformance.XsphAndConfinement/InTheCorners*'
+mutation "xsph: the density of one" \
+    shaders/sim/xsph.comp \
+    '(density[k] + density_j)' \
+    '(2.0 * density[k])' \
+    conformance_tests '*PassConformance.XsphAndConfinement/Splash*'
+mutation "vorticity: mirrors do not turn it" \
+    shaders/sim/vorticity.comp \
+    'float turn = signs.x * signs.y * signs.z' \
+    'float turn = 1.0' \
+    conformance_tests '*PassConformance.XsphAndConfinement/InTheCorners*'
+mutation "confinement: it slows vortices down" \
+    shaders/sim/confinement.comp \
+    'cross(n, vorticity[i].xyz)' \
+    'cross(vorticity[i].xyz, n)' \
+    physics_short_tests 'Vortex.Confinement*'
 mutation "solve: too strong a relaxation" \
     engine/particles/sph_kernel.cpp \
     'std::min(0.5, relaxation / largest' \
@@ -459,7 +529,7 @@ mutation "solve: warm starts stay behind in the sort" \
     conformance_tests 'Steps.StepsWithSolvedPressureAreTheTwins'
 mutation "drift: no contact with walls" \
     shaders/sim/drift.comp \
-    'vec3 v = with_contact(position[i].xyz, velocity[i].xyz)' \
+    'vec3 v = with_contact(position[i].xyz, velocity[i].xyz, params.dt)' \
     'vec3 v = velocity[i].xyz' \
     conformance_tests 'Steps.WallsHoldALoneParticle'
 mutation "time step: the fastest of the last step only" \

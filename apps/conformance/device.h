@@ -17,6 +17,7 @@ struct Device {
     gpu::Buffer params_buffer;
     gpu::Buffer status;
     sim::TimeControl time;
+    sim::Vorticity vorticity;
     gpu::Commands commands;
 
     Device(const gpu::Context& device_context, const ParticleSet& set, const sim::SimulationSettings& settings)
@@ -24,14 +25,15 @@ struct Device {
           kernels(context, settings.options), particles(make_particle_buffers(context, params.particle_count)),
           grid(context, params.particle_count, params.grid_size),
           params_buffer(gpu::make_buffer<shared::SphParams>(context, 1, "params")),
-          status(gpu::make_buffer<shared::Status>(context, 1, "status")), time(context, params), commands(context)
+          status(gpu::make_buffer<shared::Status>(context, 1, "status")), time(context, params),
+          vorticity(context, settings.options, params.particle_count), commands(context)
     {
         upload(context, set, particles);
         gpu::upload<shared::SphParams>(context, params_buffer, {&params, 1});
         run([&] { commands.fill(status, shared::NO_STEP); });
     }
 
-    [[nodiscard]] sim::Fluid fluid() { return {kernels, params_buffer, particles, grid, status, time}; }
+    [[nodiscard]] sim::Fluid fluid() { return {kernels, params_buffer, particles, grid, status, time, vorticity}; }
 
     template <class Record>
     void run(const Record& record)

@@ -9,6 +9,7 @@
 #include "conformance/boundary_comparison.h"
 #include "conformance/device.h"
 #include "conformance/dfsph_comparison.h"
+#include "conformance/pbf_comparison.h"
 #include "conformance/relative_error.h"
 #include "conformance/viscosity_comparison.h"
 #include "gpu/transfer.h"
@@ -19,8 +20,10 @@
 #include "reference/forces.h"
 #include "reference/integrate.h"
 #include "reference/measure.h"
+#include "reference/pbf.h"
 #include "reference/state.h"
 #include "reference/step.h"
+#include "reference/vorticity.h"
 #include "shared/neighbor_count.h"
 #include "sim/wcsph.h"
 
@@ -203,6 +206,56 @@ PassError compare_forces(Device& device, const reference::Settings& settings, co
     return {"forces", error.value(), pass_bound};
 }
 
+/// The vorticity, and what confinement makes of the device's, over the sum of the absolute values of the vorticity's
+/// terms.
+PassError compare_confinement(Device& device, const reference::Settings& settings,
+                              const reference::Neighbors& neighbors)
+{
+    const reference::State before = reference::from_particle_set(download_unordered(device.context, device.particles));
+    device.run([&] {
+        device.vorticity.record_confinement(device.commands, device.kernels, device.params_buffer, device.particles,
+                                            device.grid);
+    });
+    const ParticleSet gpu = download_unordered(device.context, device.particles);
+    const auto found = gpu::download<glm::vec4>(device.context, *device.vorticity.vorticity(), gpu.size());
+    std::vector<glm::dvec3> vorticities;
+    for (const glm::vec4& v : found) {
+        vorticities.emplace_back(v.x, v.y, v.z);
+    }
+    RelativeError error;
+    for (std::size_t i = 0; i < gpu.size(); ++i) {
+        if (!reference::is_boundary(before, i)) {
+            const reference::VectorSum vorticity = reference::vorticity(settings, before, neighbors, i);
+            error.add(glm::length(vorticities[i] - vorticity.value), vorticity.magnitude);
+            const glm::dvec3 change = reference::confinement(settings, before, neighbors, vorticities, i);
+            const double scale = static_cast<double>(device.params.vorticity_confinement) * vorticity.magnitude;
+            error.add(gpu.acceleration[i], before.acceleration[i] + change,
+                      glm::length(before.acceleration[i]) + scale);
+        }
+    }
+    return {"confinement", error.value(), pass_bound};
+}
+
+PassError compare_xsph(Device& device, const reference::Settings& settings, const reference::Neighbors& neighbors)
+{
+    const reference::State before = reference::from_particle_set(download_unordered(device.context, device.particles));
+    device.run([&] {
+        device.vorticity.record_xsph(device.commands, device.kernels, device.params_buffer, device.particles,
+                                     device.grid);
+    });
+    const ParticleSet gpu = download_unordered(device.context, device.particles);
+    RelativeError error;
+    for (std::size_t i = 0; i < gpu.size(); ++i) {
+        reference::VectorSum change;
+        if (!reference::is_boundary(before, i)) {
+            change = reference::smoothing(settings, before, neighbors, i);
+        }
+        error.add(gpu.velocity[i], before.velocity[i] + change.value,
+                  glm::length(before.velocity[i]) + change.magnitude);
+    }
+    return {"xsph", error.value(), pass_bound};
+}
+
 PassError compare_kick(Device& device)
 {
     reference::State twin = reference::from_particle_set(download_unordered(device.context, device.particles));
@@ -243,9 +296,20 @@ std::vector<PassError> compare_passes(const gpu::Context& context, const Particl
             errors.push_back(std::move(error));
         }
     }
+    if (settings.options.solver == shared::SOLVER_PBF) {
+        for (PassError& error : compare_pbf_passes(device, settings.options, twin_settings, twin, neighbors)) {
+            errors.push_back(std::move(error));
+        }
+    }
     errors.push_back(compare_forces(device, twin_settings, neighbors));
     for (PassError& error : compare_boundary_forces(device, settings.options, twin_settings, neighbors)) {
         errors.push_back(std::move(error));
+    }
+    if (settings.options.confinement) {
+        errors.push_back(compare_confinement(device, twin_settings, neighbors));
+    }
+    if (settings.options.xsph) {
+        errors.push_back(compare_xsph(device, twin_settings, neighbors));
     }
     errors.push_back(compare_kick(device));
     return errors;
@@ -262,6 +326,8 @@ std::vector<PassError> compare_steps(const gpu::Context& context, const Particle
     const auto twin_step = [&] {
         if (settings.options.solver == shared::SOLVER_DFSPH) {
             (void)reference::dfsph_step(twin_settings, twin, warm_starts);
+        } else if (settings.options.solver == shared::SOLVER_PBF) {
+            (void)reference::pbf_step(twin_settings, twin);
         } else {
             reference::step(twin_settings, twin);
         }

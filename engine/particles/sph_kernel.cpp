@@ -11,6 +11,7 @@
 #include <glm/glm.hpp>
 
 #include "core/error.h"
+#include "shared/pbf.h"
 
 namespace meltpoint {
 namespace {
@@ -149,6 +150,16 @@ LatticeMoments lattice_moments(std::uint32_t kernel, double support_radius, doub
     return moments;
 }
 
+double lattice_response(std::uint32_t kernel, double support_radius, double spacing)
+{
+    const double ratio = checked_support_ratio(support_radius, spacing);
+    double sum = 0.0;
+    for_each_lattice_site(ratio, [&](const glm::dvec3&, double r) {
+        sum += r > 0.0 ? std::pow(gradient_shape(kernel, r / ratio), 2) : 0.0;
+    });
+    return sum;
+}
+
 double largest_jacobi_eigenvalue(std::uint32_t kernel, double support_radius, double spacing)
 {
     const double ratio = checked_support_ratio(support_radius, spacing);
@@ -228,6 +239,9 @@ void set_kernel_scales(shared::SphParams& params, std::uint32_t kernel, double s
     constexpr double relaxation = 1.3;
     params.solve_relaxation =
         static_cast<float>(std::min(0.5, relaxation / largest_jacobi_eigenvalue(kernel, support_radius, spacing)));
+
+    const double near = static_cast<double>(shared::ARTIFICIAL_PRESSURE_DISTANCE) * spacing / support_radius;
+    params.artificial_pressure_scale = static_cast<float>(1.0 / density_shape(kernel, near));
 
     params.spacing = static_cast<float>(spacing);
     const double rate = static_cast<double>(params.speed_of_sound) / spacing; // sound crosses a spacing in 1/rate

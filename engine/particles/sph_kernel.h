@@ -69,6 +69,10 @@ struct PairViscosity {
 /// support_radius and spacing in meters. Throws as lattice_moments.
 [[nodiscard]] PairViscosity pair_viscosity(double support_radius, double spacing);
 
+/// What the density of a particle of that lattice responds with to its neighbors' moves, sum_j |grad W_ij|^2 over the
+/// squared gradient scale: the unit of params.constraint_softness. Throws as lattice_moments.
+[[nodiscard]] double lattice_response(std::uint32_t kernel, double support_radius, double spacing);
+
 /// The largest eigenvalue of the pressure solves' Jacobi matrix on that lattice, where it is about 3 at H = 2 d and 6
 /// at 3 d: plane waves of pressure are its eigenvectors, with the eigenvalues |sum_j g_j sin(k . x_j)|^2 / sum_j
 /// |g_j|^2, g_j the kernel gradients. Jacobi iterations converge when relaxed by less than 2 over it. Throws as
@@ -83,8 +87,8 @@ inline constexpr double MAX_SUPPORT_RATIO = 8.0; ///< above, a particle has more
 [[nodiscard]] double wall_viscosity_integral(std::uint32_t kernel, double distance, double support_radius);
 
 /// Fills the spacing (m) and what follows from it, kernel, support radius and speed of sound: the five kernel scales
-/// divided by their lattice moments, the relaxation of pressure solves, and the contact spring. params.support_radius
-/// and params.speed_of_sound must be set. Throws as lattice_moments does.
+/// divided by their lattice moments, the relaxation of pressure solves, the unit of artificial pressure, and the
+/// contact spring. params.support_radius and params.speed_of_sound must be set. Throws as lattice_moments does.
 void set_kernel_scales(shared::SphParams& params, std::uint32_t kernel, double spacing);
 
 } // namespace meltpoint

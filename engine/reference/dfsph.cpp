@@ -9,6 +9,7 @@
 #include "reference/density.h"
 #include "reference/integrate.h"
 #include "reference/viscosity.h"
+#include "reference/vorticity.h"
 #include "reference/walls.h"
 
 namespace meltpoint::reference {
@@ -169,10 +170,12 @@ DfsphStep dfsph_step(const Settings& settings, State& state, WarmStarts& warm_st
     DfsphStep results;
     const Neighbors neighbors = find_neighbors(settings.params, state.position);
     update_density(settings, state, neighbors);
+    smooth_velocities(settings, state, neighbors);
     results[shared::SOLVE_DIVERGENCE] =
         solve(settings, state, neighbors, shared::SOLVE_DIVERGENCE, warm_starts[shared::SOLVE_DIVERGENCE]);
     const Accelerations a = accelerations(settings, state, neighbors);
     parallel_for(state.size(), [&](std::size_t i) { state.acceleration[i] = a.total[i].value; });
+    add_confinement(settings, state, neighbors);
     kick(state, step_length(settings));
     if (settings.implicit_viscosity) {
         (void)solve_viscosity(settings, state, neighbors);

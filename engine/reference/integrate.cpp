@@ -38,30 +38,45 @@ void kick(State& state, double t)
     parallel_for(state.size(), [&](std::size_t i) { state.velocity[i] += state.acceleration[i] * t; });
 }
 
+glm::dvec3 held_off_walls(const shared::SphParams& params, const glm::dvec3& position, glm::dvec3 velocity,
+                          double seconds)
+{
+    const double reach = static_cast<double>(params.contact_distance);
+    for_each_wall(params, position, [&](double distance, const glm::dvec3& normal) {
+        const double slowest = std::min((reach - distance) / seconds, 0.0);
+        velocity += std::max(slowest - glm::dot(velocity, normal), 0.0) * normal;
+    });
+    return velocity;
+}
+
 void hold_off_walls(const Settings& settings, State& state)
 {
-    const double reach = static_cast<double>(settings.params.contact_distance);
     const double dt = static_cast<double>(settings.params.dt);
     parallel_for(state.size(), [&](std::size_t i) {
-        if (is_boundary(state, i)) {
-            return;
+        if (!is_boundary(state, i)) {
+            state.velocity[i] = held_off_walls(settings.params, state.position[i], state.velocity[i], dt);
         }
-        for_each_wall(settings.params, state.position[i], [&](double distance, const glm::dvec3& normal) {
-            const double slowest = std::min((reach - distance) / dt, 0.0);
-            state.velocity[i] += std::max(slowest - glm::dot(state.velocity[i], normal), 0.0) * normal;
-        });
     });
 }
 
 void drift(const Settings& settings, State& state)
 {
     const double dt = static_cast<double>(settings.params.dt);
+    parallel_for(state.size(), [&](std::size_t i) {
+        if (!is_boundary(state, i)) {
+            state.position[i] += state.velocity[i] * dt;
+        }
+    });
+    watch(settings, state);
+}
+
+void watch(const Settings& settings, State& state)
+{
     std::vector<std::uint32_t> fault(state.size(), shared::FAULT_NONE);
     parallel_for(state.size(), [&](std::size_t i) {
         if (is_boundary(state, i)) {
             return;
         }
-        state.position[i] += state.velocity[i] * dt;
         if (is_outside(settings.params, state.position[i])) {
             state.attributes[i] |= shared::FLAG_LEFT_DOMAIN;
         }

@@ -7,17 +7,31 @@
 #include "reference/forces.h"
 #include "reference/integrate.h"
 #include "reference/viscosity.h"
+#include "reference/vorticity.h"
 
 namespace meltpoint::reference {
 
-void evaluate(const Settings& settings, State& state)
+namespace {
+
+void update(const Settings& settings, State& state, bool smooth)
 {
     const Neighbors neighbors = find_neighbors(settings.params, state.position);
     update_boundary_weights(settings, state, neighbors);
     update_density(settings, state, neighbors);
+    if (smooth) {
+        smooth_velocities(settings, state, neighbors);
+    }
     const Accelerations a = accelerations(settings, state, neighbors);
     parallel_for(state.size(), [&](std::size_t i) { state.acceleration[i] = a.total[i].value; });
+    add_confinement(settings, state, neighbors);
     state.status.coincident = a.coincident_pairs;
+}
+
+} // namespace
+
+void evaluate(const Settings& settings, State& state)
+{
+    update(settings, state, false);
 }
 
 void step(const Settings& settings, State& state)
@@ -25,7 +39,7 @@ void step(const Settings& settings, State& state)
     const double half_step = 0.5 * static_cast<double>(settings.params.dt);
     kick(state, half_step);
     drift(settings, state);
-    evaluate(settings, state);
+    update(settings, state, true);
     kick(state, half_step);
     if (settings.implicit_viscosity) {
         (void)solve_viscosity(settings, state, find_neighbors(settings.params, state.position));

@@ -17,6 +17,19 @@ namespace {
 constexpr double longest_solved_step = 5e-3; // s: longer ones show, however slow the fluid is
 constexpr double sound_per_speed = 10.0;     // density error about 1 %
 
+std::uint32_t solver_number(Solver solver)
+{
+    switch (solver) {
+    case Solver::Dfsph:
+        return shared::SOLVER_DFSPH;
+    case Solver::Pbf:
+        return shared::SOLVER_PBF;
+    case Solver::Wcsph:
+        break;
+    }
+    return shared::SOLVER_WCSPH;
+}
+
 double support_radius(const Scene& scene)
 {
     return static_cast<double>(scene.particles.spacing) * static_cast<double>(scene.particles.support_ratio);
@@ -52,6 +65,32 @@ double heaviest_rest_density(const Scene& scene)
         heaviest = std::max(heaviest, static_cast<double>(body.rest_density));
     }
     return heaviest;
+}
+
+/// The fastest that a step's longest move allows is reserve for a fluid that accelerates.
+constexpr float share_of_speed_cap = 0.8f;
+
+void set_pbf(const Scene& scene, shared::SphParams& params)
+{
+    if (scene.pbf.iterations) {
+        params.least_iterations = params.max_iterations = *scene.pbf.iterations;
+        params.density_error = std::numeric_limits<float>::max(); // whatever it is
+    }
+    params.artificial_pressure = scene.pbf.artificial_pressure;
+    params.speed_cap = scene.pbf.speed_cap * scene.particles.spacing;
+}
+
+/// The farthest that a particle moves in a step that the device chooses, where pressure is solved for, m.
+float cfl_length(const Scene& scene)
+{
+    return (scene.solver == Solver::Pbf ? share_of_speed_cap * scene.pbf.speed_cap : 0.4f) * scene.particles.spacing;
+}
+
+/// s, of a step where pressure is solved for.
+double longest_step(const Scene& scene)
+{
+    const double frame = 1.0 / static_cast<double>(scene.time.frame_rate);
+    return scene.solver == Solver::Pbf ? frame / scene.pbf.substeps : std::min(longest_solved_step, frame);
 }
 
 /// Walls are mirrors; a particle between two of them would need images of images without end.
@@ -122,9 +161,9 @@ TimeStepBounds time_step_bounds(const Scene& scene, double speed_of_sound, doubl
         lightest = std::min(lightest, static_cast<double>(body.rest_density));
     }
     const double viscosity = largest_viscosity(scene);
-    const double spacing = static_cast<double>(scene.particles.spacing);
-    const double cfl = scene.solver == Solver::Wcsph ? 0.4 * 0.5 * support / (speed_of_sound + speed)
-                                                     : std::min(0.4 * spacing / speed, longest_solved_step);
+    const double cfl = scene.solver == Solver::Wcsph
+                           ? 0.4 * 0.5 * support / (speed_of_sound + speed)
+                           : std::min(static_cast<double>(cfl_length(scene)) / speed, longest_step(scene));
     return {.cfl = cfl,
             .viscosity = viscosity > 0.0 ? 0.06 * lightest * support * support / viscosity
                                          : std::numeric_limits<double>::infinity()};
@@ -132,6 +171,14 @@ TimeStepBounds time_step_bounds(const Scene& scene, double speed_of_sound, doubl
 
 bool solves_viscosity(const Scene& scene, const TimeStepBounds& bounds)
 {
+    if (scene.solver == Solver::Pbf) {
+        if (scene.physics.viscosity_model == ViscosityModel::Implicit) {
+            throw input_error(
+                "{}: physics.viscosity_model is \"implicit\", which solver \"pbf\" has not: take dfsph or wcsph",
+                scene.name);
+        }
+        return false;
+    }
     if (scene.physics.viscosity_model != ViscosityModel::Auto) {
         return scene.physics.viscosity_model == ViscosityModel::Implicit;
     }
@@ -164,13 +211,19 @@ FluidSettings fluid_settings(const Scene& scene, const ParticleSet& particles)
     params.background_pressure = scene.physics.background_pressure;
     params.viscosity = scene.physics.viscosity;
     params.wall_viscosity = scene.domain.wall_viscosity;
+    params.xsph = scene.physics.xsph.value_or(scene.solver == Solver::Pbf ? 0.01f : 0.0f);
+    params.vorticity_confinement = scene.physics.vorticity_confinement;
     params.surface_tension = scene.physics.surface_tension;
     params.tension_threshold = scene.physics.tension_threshold;
-    params.density_error = scene.solve.density_error;
+    params.density_error = scene.solve.density_error.value_or(scene.solver == Solver::Pbf ? 0.01f : 5e-4f);
     params.divergence_error = scene.solve.divergence_error;
     params.max_iterations = scene.solve.max_iterations;
     params.viscosity_error = scene.solve.viscosity_error;
     params.viscosity_iterations = scene.solve.viscosity_iterations;
+    params.least_iterations = 1;
+    if (scene.solver == Solver::Pbf) {
+        set_pbf(scene, params);
+    }
     const SceneMaterials materials = scene_materials(scene);
     for (std::size_t i = 0; i < materials.materials.size(); ++i) {
         params.rest_density[i] = materials.materials[i].rest_density;
@@ -187,10 +240,10 @@ FluidSettings fluid_settings(const Scene& scene, const ParticleSet& particles)
     params.adaptive_dt = scene.time.dt ? 0 : 1;
     params.dt = scene.time.dt.value_or(static_cast<float>(std::min(bounds.smallest(), 1.0 / frame_rate)));
     const bool solved = scene.solver != Solver::Wcsph;
-    params.cfl_length = solved ? 0.4f * scene.particles.spacing : 0.4f * 0.5f * params.support_radius;
+    params.cfl_length = solved ? cfl_length(scene) : 0.4f * 0.5f * params.support_radius;
     params.cfl_speed = solved ? 0.0f : params.speed_of_sound;
     params.longest_dt = static_cast<float>(
-        std::min({bounds.viscosity, 1.0 / frame_rate, solved ? longest_solved_step : bounds.viscosity}));
+        std::min({bounds.viscosity, 1.0 / frame_rate, solved ? longest_step(scene) : 1.0 / frame_rate}));
     params.shortest_dt = 1e-3f * params.dt;
     const double dt = static_cast<double>(params.dt);
     if (dt * frame_rate > 1.0 + 1e-6) {
@@ -224,12 +277,20 @@ FluidSettings fluid_settings(const Scene& scene, const ParticleSet& particles)
     }
     // The CFL bound of the particles' own speed; the sound's is for the warning above.
     params.longest_move = (solved ? 0.5f : 0.4f * 0.5f) * params.support_radius;
+    if (scene.solver == Solver::Pbf) { // it has a speed cap, which leaves no one too fast
+        params.longest_move = 2.0f * params.speed_cap;
+    }
     params.speed_limit = params.longest_move / params.dt;
 
-    options.solver = scene.solver == Solver::Dfsph ? shared::SOLVER_DFSPH : shared::SOLVER_WCSPH;
+    options.solver = solver_number(scene.solver);
     options.kernel = scene.kernel == SphKernel::Wendland ? shared::KERNEL_WENDLAND : shared::KERNEL_PAPER;
     options.tension = scene.physics.surface_tension > 0.0f;
+    options.xsph = params.xsph > 0.0f;
+    options.confinement = params.vorticity_confinement > 0.0f;
     set_kernel_scales(params, options.kernel, static_cast<double>(scene.particles.spacing));
+    params.constraint_softness = static_cast<float>(
+        static_cast<double>(scene.pbf.relaxation) *
+        lattice_response(options.kernel, support_radius(scene), static_cast<double>(scene.particles.spacing)));
     return settings;
 }
 

@@ -86,6 +86,11 @@ void check_output(const Scene& scene, const RunOptions& options)
     if (!options.forces.empty() && scene.colliders.empty()) {
         throw input_error("--forces {}: the scene has no colliders", options.forces.string());
     }
+    if (!options.forces.empty() && scene.solver == Solver::Pbf) {
+        throw input_error(
+            "--forces {}: solver \"pbf\" moves particles and knows no forces on colliders; wcsph and dfsph do",
+            options.forces.string());
+    }
     for (const std::filesystem::path& file : {options.video, options.stats, options.forces}) {
         if (!file.empty()) {
             refuse_special(file);
@@ -272,6 +277,20 @@ void warn_of_unmet_viscosity(const Scene& scene, const sim::Simulation::SolveSta
     }
 }
 
+/// Warns once of a speed cap that shapes the motion: where it slows down more than a particle of a thousand in a step.
+void warn_of_capped_speeds(const Scene& scene, std::uint32_t capped, std::uint64_t particle_steps, std::uint32_t frame,
+                           bool& warned)
+{
+    constexpr double noticeable = 1e-3;
+    const double share = capped / std::max(static_cast<double>(particle_steps), 1.0);
+    if (share > noticeable && !warned) {
+        log_warning(fmt::format("frame {}: {:.2g} % of the particles were slowed down in a step, to {:.4g} spacings "
+                                "(pbf.speed_cap; time.dt = \"auto\" takes shorter steps instead)",
+                                frame, 100.0 * share, scene.pbf.speed_cap));
+        warned = true;
+    }
+}
+
 } // namespace
 
 RunSummary run_scene(const gpu::Context& context, const Scene& scene, const RunOptions& options)
@@ -317,6 +336,7 @@ RunSummary run_scene(const gpu::Context& context, const Scene& scene, const RunO
     bool warned_of_coincident = false;
     bool warned_of_solves = false;
     bool warned_of_viscosity = false;
+    bool warned_of_cap = false;
     double previous_frame_time = 0.0;
     Progress progress("frames", scene.time.frames, options.quiet);
     for (std::uint32_t frame = 0; frame < scene.time.frames; ++frame) {
@@ -335,6 +355,8 @@ RunSummary run_scene(const gpu::Context& context, const Scene& scene, const RunO
         const auto solves = simulation ? simulation->take_solve_statistics() : std::nullopt;
         if (solves) {
             warn_of_unmet_errors(scene, *solves, frame, warned_of_solves);
+            warn_of_capped_speeds(scene, (*solves)[shared::SOLVE_DENSITY].capped,
+                                  particle_count * (summary.steps - steps_before), frame, warned_of_cap);
         }
         const auto viscosity = simulation ? simulation->take_viscosity_statistics() : std::nullopt;
         if (viscosity) {
@@ -369,7 +391,9 @@ RunSummary run_scene(const gpu::Context& context, const Scene& scene, const RunO
                 }
                 if (solves) {
                     statistics.iterations_density = (*solves)[shared::SOLVE_DENSITY].mean_iterations;
-                    statistics.iterations_divergence = (*solves)[shared::SOLVE_DIVERGENCE].mean_iterations;
+                    if (scene.solver == Solver::Dfsph) {
+                        statistics.iterations_divergence = (*solves)[shared::SOLVE_DIVERGENCE].mean_iterations;
+                    }
                 }
                 if (viscosity) {
                     statistics.iterations_viscosity = viscosity->mean_iterations;

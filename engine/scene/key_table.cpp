@@ -232,8 +232,8 @@ std::vector<SceneKey> make_scene_keys()
     return {
         k("name", FIELD(name), "", Range{1, 200}, "what to call the scene and the folder of its frames; left out, a file goes by its own name"),
         k("description", FIELD(description), "", Range{0, 10000}, "what it shows"),
-        choice<Scene>("solver", FIELD(solver), {{"wcsph", Solver::Wcsph}, {"dfsph", Solver::Dfsph}},
-                      "wcsph: weakly compressible SPH, pressure from density by a state equation, small steps; dfsph: divergence-free SPH (Bender & Koschier 2015), pressure solved for, large steps"),
+        choice<Scene>("solver", FIELD(solver), {{"wcsph", Solver::Wcsph}, {"dfsph", Solver::Dfsph}, {"pbf", Solver::Pbf}},
+                      "wcsph: weakly compressible SPH, pressure from density by a state equation, small steps; dfsph: divergence-free SPH (Bender & Koschier 2015), pressure solved for, large steps; pbf: position based fluids (Macklin & Mueller 2013), positions moved until they keep the density, large steps, softer"),
         choice<Scene>("kernel", FIELD(kernel), {{"paper", SphKernel::Paper}, {"wendland", SphKernel::Wendland}},
                       "wendland: C2 for all, for pictures at particles.support_ratio = 2, for truth at 3; paper: poly6, spiky and viscosity kernels (Mueller et al. 2003), which need more viscosity to stay calm"),
         k("seed", FIELD(seed), "", Range{0, 1e18},
@@ -251,6 +251,8 @@ std::vector<SceneKey> make_scene_keys()
         k("physics.viscosity", FIELD(physics.viscosity), "Pa s", Range{0, 1e4}, "dynamic; water has 0.001, but at this resolution splashes look right with more"),
         choice<Scene>("physics.viscosity_model", FIELD(physics.viscosity_model), {{"auto", ViscosityModel::Auto}, {"explicit", ViscosityModel::Explicit}, {"implicit", ViscosityModel::Implicit}},
                       "explicit: a force like the others, which makes thick fluids take tiny steps (Mueller et al. 2003); implicit: solved for at the end of each step (Weiler et al. 2018), which bounds no step and leaves rotation alone; auto: implicit where the explicit one would shorten the steps"),
+        k("physics.xsph", FIELD(physics.xsph), "", Range{0, 1}, "part of the difference between a particle's velocity and those around it that a step takes away (Monaghan 1989, Schechter & Bridson 2012); auto: 0.01 of pbf, else 0"),
+        k("physics.vorticity_confinement", FIELD(physics.vorticity_confinement), "m/s", Range{0, 100}, "spins up vortices that the resolution wears away (Macklin & Mueller 2013): acceleration where vorticity falls off, over vorticity; a look, it adds energy and keeps no momentum"),
         k("physics.surface_tension", FIELD(physics.surface_tension), "N/m", Range{0, 1e4}, "of the model of Mueller et al. 2003: a look, not a measured force"),
         k("physics.tension_threshold", FIELD(physics.tension_threshold), "", Range{0, 100}, "on the color gradient times H: particles below it are inside and feel no tension"),
         choice<Scene>("physics.state_equation", FIELD(physics.state_equation), {{"linear", StateEquation::Linear}, {"tait", StateEquation::Tait}},
@@ -260,11 +262,17 @@ std::vector<SceneKey> make_scene_keys()
         k("physics.background_pressure", FIELD(physics.background_pressure), "Pa", Range{0, 1e9}, "added to every pressure"),
         flag<Scene>("physics.clamp_pressure", FIELD(physics.clamp_pressure), "no pressure below zero, which would clump particles at a free surface"),
 
-        k("solve.density_error", FIELD(solve.density_error), "", Range{1e-6, 0.1}, "dfsph: mean of rho/rho0 - 1, where positive, at which a step's density solve ends"),
+        k("solve.density_error", FIELD(solve.density_error), "", Range{1e-6, 0.1}, "mean of rho/rho0 - 1, where positive, at which a step's density solve ends; auto: 0.0005, of pbf, which is soft, 0.01"),
         k("solve.divergence_error", FIELD(solve.divergence_error), "", Range{1e-6, 0.1}, "dfsph: mean relative growth of density in a step, where positive, at which its divergence solve ends"),
         k("solve.max_iterations", FIELD(solve.max_iterations), "", Range{1, 1000}, "of a solve for pressure; ending there without having met the error is reported"),
         k("solve.viscosity_error", FIELD(solve.viscosity_error), "", Range{1e-6, 0.1}, "implicit viscosity: what may be left over of the viscous forces, relative, root mean square, for a step's solve to end"),
         k("solve.viscosity_iterations", FIELD(solve.viscosity_iterations), "", Range{1, 1000}, "of that solve; ending there without having met the error is reported"),
+
+        k("pbf.substeps", FIELD(pbf.substeps), "", Range{1, 100}, "steps a frame, at least, where time.dt is auto"),
+        k("pbf.iterations", FIELD(pbf.iterations), "", Range{1, 1000}, "of a step, always as many; auto: until solve.density_error is met, at most solve.max_iterations"),
+        k("pbf.relaxation", FIELD(pbf.relaxation), "", Range{0, 100}, "how soft the density constraints are (constraint force mixing), in parts of what a full neighborhood responds with"),
+        k("pbf.artificial_pressure", FIELD(pbf.artificial_pressure), "", Range{0, 10}, "keeps pairs of particles apart: at 0.4 spacings like a density too high by this part"),
+        k("pbf.speed_cap", FIELD(pbf.speed_cap), "spacings", Range{0.05, 1}, "the farthest that a particle may move in a step; automatic steps are so short that 0.8 of it suffices, then what is faster is slowed down, and reported"),
 
         k("time.dt", FIELD(time.dt), "s", Range{1e-9, 1}, "step; auto: as long as stability allows, chosen anew for every step, the last of a frame ending at its time"),
         k("time.frame_rate", FIELD(time.frame_rate), "1/s", Range{1e-2, 1e6}, "frames in a second of simulated time"),

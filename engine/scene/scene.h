@@ -15,7 +15,7 @@ namespace meltpoint {
 
 enum class SphKernel { Paper, Wendland };
 enum class StateEquation { Linear, Tait };
-enum class Solver { Wcsph, Dfsph };
+enum class Solver { Wcsph, Dfsph, Pbf };
 enum class ViscosityModel { Auto, Explicit, Implicit };
 
 /// The box that the particles stay in.
@@ -37,8 +37,10 @@ struct FluidPhysics {
     glm::vec3 gravity{0.0f, -9.81f, 0.0f}; ///< m/s^2
     float viscosity = 0.5f;                ///< dynamic, Pa s
     ViscosityModel viscosity_model = ViscosityModel::Auto;
-    float surface_tension = 0.0f;   ///< N/m, the paper's model (a look)
-    float tension_threshold = 0.5f; ///< on |n| H
+    std::optional<float> xsph;          ///< part of the differences that a step takes away; auto: 0.01 of pbf, else 0
+    float vorticity_confinement = 0.0f; ///< epsilon of Macklin & Mueller 2013, m/s
+    float surface_tension = 0.0f;       ///< N/m, the paper's model (a look)
+    float tension_threshold = 0.5f;     ///< on |n| H
     StateEquation state_equation = StateEquation::Tait;
     std::optional<float> speed_of_sound; ///< m/s; auto: 10 times the speed expected of this scene
     float gamma = 7.0f;                  ///< Tait exponent
@@ -48,11 +50,20 @@ struct FluidPhysics {
 
 /// When the solves for pressure and for viscosity end.
 struct SolveSettings {
-    float density_error = 5e-4f;             ///< mean of max(rho/rho0 - 1, 0)
+    std::optional<float> density_error;      ///< mean of max(rho/rho0 - 1, 0); auto: 5e-4, of pbf 0.01
     float divergence_error = 1e-3f;          ///< mean of max(dt drho/dt / rho0, 0), a step
     std::uint32_t max_iterations = 60;       ///< of each solve of a step for pressure
     float viscosity_error = 0.01f;           ///< of the viscous forces, root mean square
     std::uint32_t viscosity_iterations = 60; ///< of a step's solve for viscosity, at most
+};
+
+/// Position based fluids (Macklin & Mueller 2013).
+struct PbfSettings {
+    std::uint32_t substeps = 2;              ///< a frame, at least
+    std::optional<std::uint32_t> iterations; ///< Jacobi iterations a step; auto: until solve.density_error is met
+    float relaxation = 0.01f;                ///< eps, in parts of the response of a full neighborhood
+    float artificial_pressure = 0.01f;       ///< k, as a relative error of density
+    float speed_cap = 0.5f;                  ///< spacings a step
 };
 
 /// How long a run is, and in what steps.
@@ -157,6 +168,7 @@ struct Scene {
     ParticleSettings particles;
     FluidPhysics physics;
     SolveSettings solve;
+    PbfSettings pbf;
     TimeSettings time;
     std::vector<FluidBody> fluids;
     std::vector<ColliderBody> colliders;

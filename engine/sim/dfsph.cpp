@@ -52,14 +52,17 @@ void Dfsph::record_start(gpu::Commands& commands, const Fluid& fluid)
     commands.fill(fluid.particles.pressure, 0);
     record_density(commands, fluid.kernels, fluid.params, fluid.particles, fluid.grid);
     record_forces(commands, fluid.kernels, fluid.params, fluid.particles, fluid.grid);
+    fluid.vorticity.record_confinement(commands, fluid.kernels, fluid.params, fluid.particles, fluid.grid);
 }
 
 void Dfsph::record_step(gpu::Commands& commands, const Fluid& fluid, std::uint32_t step)
 {
     record_sort(commands, fluid);
     record_density(commands, fluid.kernels, fluid.params, fluid.particles, fluid.grid);
+    fluid.vorticity.record_xsph(commands, fluid.kernels, fluid.params, fluid.particles, fluid.grid);
     record_solve(commands, fluid, shared::SOLVE_DIVERGENCE);
     record_forces(commands, fluid.kernels, fluid.params, fluid.particles, fluid.grid);
+    fluid.vorticity.record_confinement(commands, fluid.kernels, fluid.params, fluid.particles, fluid.grid);
     fluid.time.record(commands, fluid.params, fluid.particles);
     record_reactions(commands, fluid, false); // now that it is known how long the forces act
     record_kick(commands, fluid.kernels, fluid.params, fluid.particles, 1.0f);

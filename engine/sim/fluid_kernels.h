@@ -13,6 +13,8 @@ struct FluidOptions {
     std::uint32_t solver = shared::SOLVER_WCSPH;
     std::uint32_t kernel = shared::KERNEL_PAPER;
     bool tension = false;
+    bool xsph = false;
+    bool confinement = false;
     bool implicit_viscosity = false; ///< solved for (sim/implicit_viscosity)
     std::uint32_t tile = 0;          ///< particles an invocation, 1 to 16; 0 chooses for the device
 };

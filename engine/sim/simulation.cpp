@@ -1,6 +1,7 @@
 #include "sim/simulation.h"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <cstddef>
 #include <limits>
@@ -78,6 +79,7 @@ Simulation::Simulation(const gpu::Context& context, const ParticleSet& particles
       params_buffer_(gpu::make_buffer<shared::SphParams>(context, 1, "params")),
       status_(gpu::make_buffer<shared::Status>(context, 1, "status")),
       readback_(context, sizeof(Readback), gpu::MemoryUse::Readback, "readback"), time_(context, params_),
+      vorticity_(context, settings.options, params_.particle_count),
       commands_(std::make_unique<gpu::Commands>(context))
 {
     upload(context, particles, particles_);
@@ -160,7 +162,7 @@ void Simulation::check_status(const shared::Status& status) const
 
 std::uint64_t Simulation::device_bytes() const
 {
-    std::uint64_t sum = solver_->device_bytes() + (viscosity_ ? viscosity_->device_bytes() : 0);
+    std::uint64_t sum = solver_->device_bytes() + vorticity_.device_bytes() + (viscosity_ ? viscosity_->device_bytes() : 0);
     sum += boundary_forces_ != nullptr ? boundary_forces_->reactions().size() : 0;
     for (const gpu::Buffer* buffer : {&particles_.id,
                                       &particles_.attributes,
@@ -232,7 +234,9 @@ std::vector<Simulation::SolveStatistics> Simulation::take_statistics(const gpu::
     for (const shared::Solve& solve : found) {
         statistics.push_back({.mean_iterations = solve.total_iterations / steps,
                               .worst_error = static_cast<double>(solve.worst_error),
-                              .unconverged = solve.unconverged});
+                              .unconverged = solve.unconverged,
+                              .farthest_move = std::sqrt(static_cast<double>(std::bit_cast<float>(solve.farthest))),
+                              .capped = solve.capped});
     }
     return statistics;
 }
@@ -289,8 +293,8 @@ Simulation::BoundaryForceMeans Simulation::take_boundary_forces()
 
 void Simulation::enable_timings()
 {
-    commands_ = std::make_unique<gpu::Commands>(*context_,
-                                                max_steps_per_submission * (solver_->scopes() + (viscosity_ ? 1 : 0)));
+    const std::uint32_t scopes = solver_->scopes() + vorticity_.scopes() + (viscosity_ ? 1 : 0);
+    commands_ = std::make_unique<gpu::Commands>(*context_, max_steps_per_submission * scopes);
 }
 
 } // namespace meltpoint::sim

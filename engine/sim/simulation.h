@@ -71,6 +71,8 @@ public:
         double mean_iterations = 0.0;  ///< a step
         double worst_error = 0.0;      ///< that a solve ended with
         std::uint32_t unconverged = 0; ///< solves that ended at the maximum of iterations
+        double farthest_move = 0.0;    ///< m, of a particle in a solve that moves particles
+        std::uint32_t capped = 0;      ///< particles that the speed cap slowed down, counted in each step
     };
     /// By shared::SOLVE_*; empty where nothing is solved for. Waits, and starts to count anew.
     [[nodiscard]] std::optional<std::array<SolveStatistics, shared::SOLVES>> take_solve_statistics();
@@ -119,6 +121,7 @@ private:
                 grid_,
                 status_,
                 time_,
+                vorticity_,
                 boundary_forces_.get(),
                 viscosity_ ? &*viscosity_ : nullptr};
     }
@@ -137,6 +140,7 @@ private:
     gpu::Buffer status_;
     gpu::Buffer readback_; ///< Readback
     TimeControl time_;
+    Vorticity vorticity_;
     std::unique_ptr<BoundaryForces> boundary_forces_;
     std::unique_ptr<gpu::Commands> commands_;
     std::uint64_t step_ = 0;

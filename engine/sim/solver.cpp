@@ -1,6 +1,7 @@
 #include "sim/solver.h"
 
 #include "sim/dfsph.h"
+#include "sim/pbf.h"
 #include "sim/wcsph.h"
 
 namespace meltpoint::sim {
@@ -17,6 +18,9 @@ std::unique_ptr<Solver> make_solver(const gpu::Context& context, const FluidOpti
 {
     if (options.solver == shared::SOLVER_DFSPH) {
         return std::make_unique<Dfsph>(context, options, params);
+    }
+    if (options.solver == shared::SOLVER_PBF) {
+        return std::make_unique<Pbf>(context, options, params);
     }
     return std::make_unique<Wcsph>();
 }

@@ -10,6 +10,7 @@
 #include "sim/fluid_kernels.h"
 #include "sim/neighbor_grid.h"
 #include "sim/time_control.h"
+#include "sim/vorticity.h"
 
 namespace meltpoint::sim {
 
@@ -23,6 +24,7 @@ struct Fluid {
     NeighborGrid& grid;
     const gpu::Buffer& status; ///< shared::Status
     TimeControl& time;
+    Vorticity& vorticity;
     BoundaryForces* boundary_forces = nullptr; ///< null where nobody measures them
     ImplicitViscosity* viscosity = nullptr;    ///< null where viscosity is a force like the others
 };
@@ -37,7 +39,7 @@ public:
     /// One time step; `step` is its number, which a fault is reported with.
     virtual void record_step(gpu::Commands& commands, const Fluid& fluid, std::uint32_t step) = 0;
 
-    /// Scopes (timestamps) of a step, at most.
+    /// Scopes (timestamps) of a step, at most, without those of Fluid::vorticity.
     [[nodiscard]] virtual std::uint32_t scopes() const = 0;
     /// Device memory of its own.
     [[nodiscard]] virtual std::uint64_t device_bytes() const = 0;

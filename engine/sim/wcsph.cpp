@@ -76,6 +76,7 @@ void Wcsph::record_start(gpu::Commands& commands, const Fluid& fluid)
     record_boundary_weight(commands, fluid.kernels, fluid.params, fluid.particles, fluid.grid);
     record_density(commands, fluid.kernels, fluid.params, fluid.particles, fluid.grid);
     record_forces(commands, fluid.kernels, fluid.params, fluid.particles, fluid.grid);
+    fluid.vorticity.record_confinement(commands, fluid.kernels, fluid.params, fluid.particles, fluid.grid);
 }
 
 void Wcsph::record_step(gpu::Commands& commands, const Fluid& fluid, std::uint32_t step)
@@ -84,7 +85,9 @@ void Wcsph::record_step(gpu::Commands& commands, const Fluid& fluid, std::uint32
     record_kick_drift(commands, fluid.kernels, fluid.params, fluid.particles, fluid.status, step);
     record_sort(commands, fluid.kernels, fluid.params, fluid.particles, fluid.grid);
     record_density(commands, fluid.kernels, fluid.params, fluid.particles, fluid.grid);
+    fluid.vorticity.record_xsph(commands, fluid.kernels, fluid.params, fluid.particles, fluid.grid);
     record_forces(commands, fluid.kernels, fluid.params, fluid.particles, fluid.grid);
+    fluid.vorticity.record_confinement(commands, fluid.kernels, fluid.params, fluid.particles, fluid.grid);
     record_reactions(commands, fluid, false);
     record_kick(commands, fluid.kernels, fluid.params, fluid.particles);
     if (fluid.viscosity != nullptr) {

@@ -39,6 +39,8 @@ struct Solve {
     uint unrisen;           // iterations since the error has last risen
     uint arrived;           // workgroups of the present pass that are done
     uint unconverged;       // solves that ended at the maximum of iterations since the host last asked
+    uint farthest;          // of solves that move particles: bits of the largest squared move in m^2 since the host last asked
+    uint capped;            // likewise: particles, counted in each step, that were slowed down to the speed cap
 };
 
 SHARED_END

@@ -29,11 +29,15 @@ SHARED_CONSTANT uint STATE_EQUATION_TAIT = 1u;   // p = (c0^2 rho0 / gamma) ((rh
 
 SHARED_CONSTANT uint SOLVER_WCSPH = 0u; // pressure from density by a state equation (Mueller et al. 2003; Monaghan 1994)
 SHARED_CONSTANT uint SOLVER_DFSPH = 1u; // pressure that keeps density and divergence (Bender & Koschier 2015)
+SHARED_CONSTANT uint SOLVER_PBF = 2u;   // positions moved until they keep the density (Macklin & Mueller 2013)
 
 SHARED_CONSTANT uint MAX_MATERIALS = 64u;
 
 // Pairs closer than this fraction of the support radius have no direction: zero gradient, counted in NeighborCount.
 SHARED_CONSTANT float COINCIDENT_RATIO = 1e-6f;
+
+// A vorticity that rises by less than this part of itself in a support radius has no direction to confine it in.
+SHARED_CONSTANT float FLAT_VORTICITY = 1e-3f;
 
 // Grid cells are half a support radius long in x and one support radius in y and z. A particle's neighbors lie in the 9 rows
 // (y, z offsets -1, 0, 1) of cells x-2 .. x+2: each row is one contiguous range of the sorted particles.
@@ -41,7 +45,8 @@ SHARED_CONSTANT uint CELLS_PER_SUPPORT_X = 2u;
 
 // What the forces need of a particle's density and pressure is computed once, with them: `interaction`, a vec4 a particle of
 // x = p V^2 gradient_scale, y = V = m / rho (m^3), z = mu V viscosity_scale. Of a boundary particle x = 0, y = V_b, and mu is
-// the friction. Where pressure is solved for, x holds dt p instead of p while a solve runs, and w the solve's diagonal.
+// the friction. Where pressure is solved for, x holds dt p instead of p while a solve runs, and w the solve's diagonal; where
+// positions are, x holds dt^2 p of the present iteration, and w the same of the artificial pressure (shared/pbf.h).
 
 struct SphParams {
     vec3 domain_min;      // m
@@ -87,6 +92,17 @@ struct SphParams {
     // Where viscosity is solved for (shared/viscosity_solve.h): the error at which a solve ends, and its most iterations.
     float viscosity_error;
     uint viscosity_iterations;
+
+    // Where positions are solved for (shared/pbf.h).
+    uint least_iterations;           // of a solve
+    float constraint_softness;       // added to sum_j m_i |g_ij / gradient_scale|^2, the response of a constraint
+    float artificial_pressure;       // as if a pair's density were wrong by this, relative
+    float artificial_pressure_scale; // 1 / W(ARTIFICIAL_PRESSURE_DISTANCE), W without density_scale
+    float speed_cap;                 // m, the farthest that a particle may move in a step
+
+    // Of any solver, 0 for none.
+    float xsph;                  // part of the difference to the velocities around that a step takes away
+    float vorticity_confinement; // epsilon, m/s
 
     // Where the device chooses dt (time_step.comp): cfl_length / (cfl_speed + the fastest particle's speed).
     uint adaptive_dt;

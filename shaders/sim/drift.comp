@@ -2,8 +2,7 @@
 #extension GL_EXT_control_flow_attributes : require
 #extension GL_GOOGLE_include_directive : require
 // The end of a step whose velocities a solve has made: x += v dt, with the walls' contact, the pressure that the solve found,
-// and the watch. Lone particles never reach rest density at a plane, so nothing but the contact keeps them inside: it takes the
-// velocity that would bring them nearer than contact_distance. Twin: engine/reference/integrate.cpp.
+// and the watch. Twin: engine/reference/integrate.cpp.
 #include "include/invocation.glsl"
 #include "shared/particle_state.h"
 #include "shared/solve.h"
@@ -20,23 +19,8 @@ layout(set = 0, binding = 6, scalar) buffer Velocity { vec4 velocity[]; };
 layout(set = 0, binding = 7, scalar) writeonly buffer Pressure { float pressure[]; };
 layout(set = 0, binding = 8, scalar) buffer StatusBuffer { Status status; };
 
+#include "include/contact.glsl"
 #include "include/watch.glsl"
-
-// Slowest velocity along the axis with which a particle, now at a distance inside the wall, does not come too near.
-float slowest(float distance) { return min((params.contact_distance - distance) / params.dt, 0.0); }
-
-vec3 with_contact(vec3 x, vec3 v)
-{
-    [[unroll]] for (int axis = 0; axis < 3; ++axis) {
-        if ((params.wall_mask >> (2 * axis) & 1u) != 0u) {
-            v[axis] = max(v[axis], slowest(x[axis] - params.domain_min[axis]));
-        }
-        if ((params.wall_mask >> (2 * axis + 1) & 1u) != 0u) {
-            v[axis] = min(v[axis], -slowest(params.domain_max[axis] - x[axis]));
-        }
-    }
-    return v;
-}
 
 void main()
 {
@@ -48,7 +32,7 @@ void main()
         pressure[i] = 0.0;
         return;
     }
-    vec3 v = with_contact(position[i].xyz, velocity[i].xyz);
+    vec3 v = with_contact(position[i].xyz, velocity[i].xyz, params.dt);
     vec3 x = position[i].xyz + params.dt * v;
     velocity[i].xyz = v;
     position[i].xyz = x;

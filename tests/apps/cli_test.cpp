@@ -406,6 +406,25 @@ TEST_F(Cli, ForcesHaveARowAFrameAndCollider)
         EXPECT_EQ(ball[2], "1");
         EXPECT_EQ(std::stod(ball[4]), 0.0); // in the air
     }
+    expect_one_sentence(run({"render", "pool.toml", "--out", "pbf", "--set", "solver=pbf", "--forces", "pbf.csv"}), 2,
+                        "knows no forces on colliders");
+}
+
+TEST_F(Cli, PositionBasedFluidsSayWhatTheyTookAndWhomTheySlowedDown)
+{
+    const Result output = run(quick("out", {"--set", "solver=pbf", "--stats", "s.csv"}));
+    ASSERT_EQ(output.exit_code, 0);
+    EXPECT_EQ(output.err.find("slowed down"), std::string::npos) << output.err;
+    const std::vector<std::string> cells = split(split(bytes("s.csv"), '\n')[3], ',');
+    ASSERT_EQ(cells.size(), 34u);
+    EXPECT_GE(std::stod(cells[31]), 1.0);
+    EXPECT_EQ(cells[32], "") << "positions have no divergence";
+    const Result slow =
+        run(quick("out2", {"--set", "solver=pbf", "--set", "pbf.iterations=3", "--stats", "t.csv", "--set",
+                           "time.dt=0.008", "--set", "pbf.speed_cap=0.05", "--set", "fluid.0.velocity=[2,0,0]"}));
+    ASSERT_EQ(slow.exit_code, 0);
+    EXPECT_EQ(split(split(bytes("t.csv"), '\n')[3], ',')[31], "3");
+    EXPECT_NE(slow.err.find("were slowed down in a step, to 0.05 spacings"), std::string::npos) << slow.err;
 }
 
 TEST_F(Cli, StatsHaveARowAFrame)

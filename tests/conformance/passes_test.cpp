@@ -201,6 +201,35 @@ TEST_P(PassConformance, SolvedViscosity)
     }
 }
 
+TEST_P(PassConformance, SolvedPositions)
+{
+    const auto [state, kernel] = GetParam();
+    sim::SimulationSettings settings = test_settings(kernel);
+    settings.options.solver = shared::SOLVER_PBF;
+    settings.params.dt = 4e-3f;
+    settings.params.artificial_pressure = 0.1f;
+    for (const std::uint32_t tile : {1u, 4u}) {
+        SCOPED_TRACE(tile);
+        settings.options.tile = tile;
+        settings.params.clamp_pressure = tile == 4 ? 1 : 0;
+        expect_conformance(settings, states()[state].make());
+    }
+}
+
+TEST_P(PassConformance, XsphAndConfinement)
+{
+    const auto [state, kernel] = GetParam();
+    sim::SimulationSettings settings = test_settings(kernel);
+    settings.options.xsph = settings.options.confinement = true;
+    settings.params.xsph = 0.5f;
+    settings.params.vorticity_confinement = 3.0f;
+    for (const std::uint32_t tile : {1u, 4u}) {
+        SCOPED_TRACE(tile);
+        settings.options.tile = tile;
+        expect_conformance(settings, states()[state].make());
+    }
+}
+
 TEST_P(PassConformance, EveryTileSize)
 {
     const auto [state, kernel] = GetParam();

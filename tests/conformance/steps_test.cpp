@@ -101,18 +101,58 @@ TEST_F(Steps, StepsWithSolvedViscosityAreTheTwins)
     }
 }
 
+sim::SimulationSettings pbf_settings(std::uint32_t kernel)
+{
+    sim::SimulationSettings settings = test_settings(kernel);
+    settings.options.solver = shared::SOLVER_PBF;
+    settings.params.dt = 4e-3f;
+    return settings;
+}
+
+TEST_F(Steps, StepsWithSolvedPositionsAreTheTwins)
+{
+    for (const std::uint32_t kernel : both_kernels) {
+        SCOPED_TRACE(kernel);
+        // A set number of iterations, or rounding alone would decide how many there are.
+        sim::SimulationSettings settings = pbf_settings(kernel);
+        settings.params.least_iterations = settings.params.max_iterations = 4;
+        ParticleSet on_a_plate = lattice_state({10, 4, 10}, glm::vec3(0.2f, 0.36f, 0.2f));
+        add_plate(on_a_plate, 1.0f, 0.3f, 0.75f * test_spacing, 0.3f, 3);
+        for (const ParticleSet& set : {on_a_plate, falling_block()}) {
+            expect_all(conformance::compare_steps(context(), set, settings, 1));
+            expect_all(conformance::compare_steps(context(), set, settings, 3));
+            expect_all(conformance::compare_steps(context(), set, pbf_settings(kernel), 50));
+        }
+    }
+}
+
+TEST_F(Steps, StepsWithXsphAndConfinementAreTheTwins)
+{
+    for (sim::SimulationSettings settings :
+         {test_settings(shared::KERNEL_WENDLAND), dfsph_settings(shared::KERNEL_WENDLAND),
+          pbf_settings(shared::KERNEL_WENDLAND)}) {
+        settings.options.xsph = settings.options.confinement = true;
+        settings.params.xsph = 0.2f;
+        settings.params.vorticity_confinement = 1.0f;
+        expect_all(conformance::compare_steps(context(), falling_block(), settings, 3));
+    }
+}
+
 // Alone it never reaches rest density, so nothing but the contact holds it.
 TEST_F(Steps, WallsHoldALoneParticle)
 {
-    sim::SimulationSettings settings = dfsph_settings(shared::KERNEL_WENDLAND);
-    ParticleSet set;
-    add_particle(set, glm::vec3(0.5f, 0.05f, 0.98f), glm::vec3(0.0f, -1.0f, 3.0f));
-    sim::Simulation simulation(context(), set, settings);
-    simulation.advance(100);
-    const ParticleSet after = simulation.download();
-    EXPECT_NEAR(after.position[0].y, settings.params.contact_distance, 1e-6f);
-    EXPECT_NEAR(after.position[0].z, 1.0f - settings.params.contact_distance, 1e-6f);
-    EXPECT_NEAR(glm::length(after.velocity[0]), 0.0f, 1e-3f);
+    for (sim::SimulationSettings settings :
+         {dfsph_settings(shared::KERNEL_WENDLAND), pbf_settings(shared::KERNEL_WENDLAND)}) {
+        settings.params.artificial_pressure = 0.0f; // which keeps it off its own image
+        ParticleSet set;
+        add_particle(set, glm::vec3(0.5f, 0.05f, 0.98f), glm::vec3(0.0f, -1.0f, 3.0f));
+        sim::Simulation simulation(context(), set, settings);
+        simulation.advance(100);
+        const ParticleSet after = simulation.download();
+        EXPECT_NEAR(after.position[0].y, settings.params.contact_distance, 1e-6f);
+        EXPECT_NEAR(after.position[0].z, 1.0f - settings.params.contact_distance, 1e-6f);
+        EXPECT_NEAR(glm::length(after.velocity[0]), 0.0f, 1e-3f);
+    }
 }
 
 // No energy to be relative to: a lattice at rest without gravity, and a particle all alone, whose energy is 0 / 0.
@@ -145,8 +185,18 @@ TEST_F(Steps, FreeFallIsExact)
 // Closed, no gravity, no walls: a jittered block flies apart, and the sum of its momenta must not care.
 TEST_F(Steps, MomentumIsConserved)
 {
+    std::vector<sim::SimulationSettings> all;
     for (const std::uint32_t kernel : both_kernels) {
-        sim::SimulationSettings settings = test_settings(kernel);
+        all.push_back(test_settings(kernel));
+        all.push_back(dfsph_settings(kernel));
+        all.push_back(pbf_settings(kernel));
+        all.back().params.speed_cap = 1.0f; // a particle that is slowed down loses momentum
+    }
+    all.push_back(test_settings(shared::KERNEL_WENDLAND));
+    all.back().options.xsph = true;
+    all.back().params.xsph = 0.3f;
+    for (sim::SimulationSettings& settings : all) {
+        SCOPED_TRACE(settings.options.solver);
         settings.params.gravity = glm::vec3(0.0f);
         settings.params.wall_mask = 0;
         Random random(5);
@@ -154,9 +204,10 @@ TEST_F(Steps, MomentumIsConserved)
         for (std::size_t i = 0; i < set.size(); ++i) {
             set.position[i] += 0.1f * test_spacing * (random_vector(random) - 0.5f);
             set.velocity[i] = random_vector(random) - 0.5f;
+            set.mass[i] *= i % 3 == 0 ? 0.6f : 1.0f;
         }
         sim::Simulation simulation(context(), set, settings);
-        simulation.advance(100);
+        simulation.advance(settings.options.solver == shared::SOLVER_PBF ? 40 : 100);
         const ParticleSet after = simulation.download();
         glm::dvec3 change(0.0);
         double scale = 0.0;
@@ -170,19 +221,23 @@ TEST_F(Steps, MomentumIsConserved)
 
 TEST_F(Steps, RerunsAndTileSizesGiveTheSameBits)
 {
-    const auto run = [&](std::uint32_t tile) {
-        sim::SimulationSettings settings = test_settings(shared::KERNEL_PAPER);
-        settings.options.tile = tile;
-        sim::Simulation simulation(context(), splash_state(6), settings);
-        simulation.advance(100);
-        return simulation.download();
-    };
-    const ParticleSet first = run(8);
-    for (const std::uint32_t tile : {8u, 4u, 1u, 3u}) {
-        const ParticleSet again = run(tile);
-        EXPECT_EQ(first.position, again.position);
-        EXPECT_EQ(first.velocity, again.velocity);
-        EXPECT_EQ(first.density, again.density);
+    sim::SimulationSettings fixed_iterations = pbf_settings(shared::KERNEL_PAPER);
+    fixed_iterations.params.least_iterations = fixed_iterations.params.max_iterations = 4;
+    for (sim::SimulationSettings settings : {test_settings(shared::KERNEL_PAPER), fixed_iterations}) {
+        SCOPED_TRACE(settings.options.solver);
+        const auto run = [&](std::uint32_t tile) {
+            settings.options.tile = tile;
+            sim::Simulation simulation(context(), splash_state(6), settings);
+            simulation.advance(settings.options.solver == shared::SOLVER_PBF ? 25 : 100);
+            return simulation.download();
+        };
+        const ParticleSet first = run(8);
+        for (const std::uint32_t tile : {8u, 4u, 1u, 3u}) {
+            const ParticleSet again = run(tile);
+            EXPECT_EQ(first.position, again.position);
+            EXPECT_EQ(first.velocity, again.velocity);
+            EXPECT_EQ(first.density, again.density);
+        }
     }
 }
 

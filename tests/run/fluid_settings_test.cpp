@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "core/error.h"
+#include "particles/sph_kernel.h"
 #include "run/scene_particles.h"
 
 namespace meltpoint {
@@ -172,6 +173,65 @@ TEST(FluidSettings, ViscosityIsSolvedForWhereItsBoundWouldBeTheShortest)
     scene.solve = {.viscosity_error = 0.02f, .viscosity_iterations = 7};
     EXPECT_EQ(settings_of(scene).simulation.params.viscosity_error, 0.02f);
     EXPECT_EQ(settings_of(scene).simulation.params.viscosity_iterations, 7u);
+}
+
+TEST(FluidSettings, PositionBasedFluidsHaveStepsAndEndsOfTheirOwn)
+{
+    Scene scene = falling_block();
+    scene.solver = Solver::Pbf;
+    const double spacing = static_cast<double>(scene.particles.spacing);
+    const double support = spacing * static_cast<double>(scene.particles.support_ratio);
+    sim::SimulationSettings settings = settings_of(scene).simulation;
+    EXPECT_EQ(settings.options.solver, shared::SOLVER_PBF);
+    EXPECT_TRUE(settings_of(scene).warnings.empty());
+    EXPECT_FLOAT_EQ(settings.params.longest_dt, 0.5f / scene.time.frame_rate);
+    EXPECT_NEAR(settings.params.cfl_length, 0.4 * spacing, 1e-6);
+    EXPECT_EQ(settings.params.cfl_speed, 0.0f);
+    EXPECT_FLOAT_EQ(settings.params.speed_cap, 0.5f * scene.particles.spacing);
+    EXPECT_GT(settings.params.longest_move, settings.params.speed_cap);
+    EXPECT_EQ(settings.params.least_iterations, 1u);
+    EXPECT_EQ(settings.params.max_iterations, 60u);
+    EXPECT_EQ(settings.params.density_error, 0.01f);
+    EXPECT_FLOAT_EQ(settings.params.constraint_softness,
+                    static_cast<float>(0.01f * lattice_response(shared::KERNEL_WENDLAND, support, spacing)));
+
+    scene.pbf = {.substeps = 5, .iterations = 3, .relaxation = 0.5f, .artificial_pressure = 0.3f, .speed_cap = 0.25f};
+    settings = settings_of(scene).simulation;
+    EXPECT_FLOAT_EQ(settings.params.longest_dt, 0.2f / scene.time.frame_rate);
+    EXPECT_NEAR(settings.params.cfl_length, 0.2 * spacing, 1e-6);
+    EXPECT_FLOAT_EQ(settings.params.speed_cap, 0.25f * scene.particles.spacing);
+    EXPECT_EQ(settings.params.least_iterations, 3u);
+    EXPECT_EQ(settings.params.max_iterations, 3u);
+    EXPECT_GT(settings.params.density_error, 1e30f);
+    EXPECT_EQ(settings.params.artificial_pressure, 0.3f);
+    scene.pbf.iterations = std::nullopt;
+    scene.solve.density_error = 0.002f;
+    EXPECT_EQ(settings_of(scene).simulation.params.density_error, 0.002f);
+    scene.solver = Solver::Dfsph;
+    scene.solve.density_error = std::nullopt;
+    EXPECT_EQ(settings_of(scene).simulation.params.density_error, 5e-4f);
+}
+
+TEST(FluidSettings, XsphAndConfinementAreOffUnlessAskedForOrPositionBased)
+{
+    Scene scene = falling_block();
+    for (const Solver solver : {Solver::Wcsph, Solver::Dfsph, Solver::Pbf}) {
+        scene.solver = solver;
+        scene.physics.xsph = std::nullopt;
+        scene.physics.vorticity_confinement = 0.0f;
+        sim::SimulationSettings settings = settings_of(scene).simulation;
+        EXPECT_EQ(settings.params.xsph, solver == Solver::Pbf ? 0.01f : 0.0f);
+        EXPECT_EQ(settings.options.xsph, solver == Solver::Pbf);
+        EXPECT_FALSE(settings.options.confinement);
+        scene.physics.xsph = 0.2f;
+        scene.physics.vorticity_confinement = 0.7f;
+        settings = settings_of(scene).simulation;
+        EXPECT_EQ(settings.params.xsph, 0.2f);
+        EXPECT_EQ(settings.params.vorticity_confinement, 0.7f);
+        EXPECT_TRUE(settings.options.xsph && settings.options.confinement);
+        scene.physics.xsph = 0.0f;
+        EXPECT_FALSE(settings_of(scene).simulation.options.xsph);
+    }
 }
 
 TEST(FluidSettings, AutomaticStepKeepsTheViscousBound)

@@ -113,7 +113,7 @@ TEST_F(TimeControl, ShorterLimitsNeedNoFewerSteps)
 
 TEST_F(TimeControl, RunsEndAtTheTimeAskedFor)
 {
-    for (const std::uint32_t solver : {shared::SOLVER_WCSPH, shared::SOLVER_DFSPH}) {
+    for (const std::uint32_t solver : {shared::SOLVER_WCSPH, shared::SOLVER_DFSPH, shared::SOLVER_PBF}) {
         // Free fall, in which the time shows.
         ParticleSet set;
         add_particle(set, glm::vec3(0.5f, 0.9f, 0.5f));

@@ -38,12 +38,18 @@ inline sim::SimulationSettings test_settings(std::uint32_t kernel)
     params.max_iterations = 40;
     params.viscosity_error = 1e-3f;
     params.viscosity_iterations = 40;
+    params.least_iterations = 1;
+    params.artificial_pressure = 0.01f;
+    params.speed_cap = 0.5f * test_spacing;
     params.dt = 2e-4f;
     params.speed_limit = 1000.0f;
     for (float& density : params.rest_density) {
         density = test_rest_density;
     }
     set_kernel_scales(params, kernel, static_cast<double>(test_spacing));
+    params.constraint_softness =
+        0.01f * static_cast<float>(lattice_response(kernel, static_cast<double>(params.support_radius),
+                                                    static_cast<double>(test_spacing)));
     return settings;
 }
 

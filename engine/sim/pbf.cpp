@@ -1,0 +1,151 @@
+#include "sim/pbf.h"
+
+#include <algorithm>
+#include <cstddef>
+#include <initializer_list>
+
+#include "sim/wcsph.h"
+#include "spirv/sim/pbf_correct.comp.h"
+#include "spirv/sim/pbf_finish.comp.h"
+#include "spirv/sim/pbf_move.comp.h"
+#include "spirv/sim/pbf_predict.comp.h"
+#include "spirv/sim/pbf_residual.comp.h"
+
+namespace meltpoint::sim {
+
+using gpu::read;
+using gpu::read_write;
+using gpu::write;
+
+namespace {
+
+/// Workgroups of the passes that own a tile an invocation.
+constexpr VkDeviceSize tile_arguments = shared::SOLVE_DENSITY * sizeof(shared::Solve) + offsetof(shared::Solve, groups);
+
+} // namespace
+
+Pbf::Pbf(const gpu::Context& context, const FluidOptions& options, const shared::SphParams& params)
+    : max_iterations_(std::max(params.max_iterations, 1u)), particles_(params.particle_count),
+      predict_(context, "pbf_predict", sim_pbf_predict_comp),
+      move_kernel_(context, "pbf_move", sim_pbf_move_comp, fluid_constants(context.info(), options)),
+      residual_(context, "pbf_residual", sim_pbf_residual_comp, fluid_constants(context.info(), options)),
+      correct_(context, "pbf_correct", sim_pbf_correct_comp, fluid_constants(context.info(), options)),
+      finish_(context, "pbf_finish", sim_pbf_finish_comp),
+      move_(gpu::make_buffer<glm::vec4>(context, particles_, "move")),
+      moved_(gpu::make_texel_buffer(context, particles_, "moved position")),
+      solves_(gpu::make_buffer<shared::Solve>(context, shared::SOLVES, "solves"))
+{
+    const std::uint32_t tile = fluid_constants(context.info(), options)[1].value;
+    const auto [x, y, z] = gpu::workgroups(context, residual_, (particles_ + tile - 1) / tile);
+    errors_ = gpu::make_buffer<glm::vec2>(context, x * y, "solve errors");
+}
+
+void Pbf::record_start(gpu::Commands& commands, const Fluid& fluid)
+{
+    commands.fill(solves_, 0);
+    record_sort(commands, fluid.kernels, fluid.params, fluid.particles, fluid.grid);
+    record_boundary_weight(commands, fluid.kernels, fluid.params, fluid.particles, fluid.grid);
+    commands.fill(fluid.particles.pressure, 0);
+    record_density(commands, fluid.kernels, fluid.params, fluid.particles, fluid.grid);
+    record_forces(commands, fluid.kernels, fluid.params, fluid.particles, fluid.grid);
+    fluid.vorticity.record_confinement(commands, fluid.kernels, fluid.params, fluid.particles, fluid.grid);
+}
+
+void Pbf::record_step(gpu::Commands& commands, const Fluid& fluid, std::uint32_t step)
+{
+    fluid.time.record(commands, fluid.params, fluid.particles);
+    record_predict(commands, fluid);
+    record_sort(commands, fluid.kernels, fluid.params, fluid.particles, fluid.grid);
+    record_density(commands, fluid.kernels, fluid.params, fluid.particles, fluid.grid);
+    fluid.vorticity.record_xsph(commands, fluid.kernels, fluid.params, fluid.particles, fluid.grid);
+    record_forces(commands, fluid.kernels, fluid.params, fluid.particles, fluid.grid);
+    fluid.vorticity.record_confinement(commands, fluid.kernels, fluid.params, fluid.particles, fluid.grid);
+    record_solve(commands, fluid);
+    record_finish(commands, fluid, step);
+}
+
+void Pbf::record_predict(gpu::Commands& commands, const Fluid& fluid)
+{
+    const ParticleBuffers& particles = fluid.particles;
+    const gpu::Scope scope(commands, "predict");
+    commands.dispatch(predict_, particles.count, gpu::NoPush{},
+                      {read(fluid.params), read(particles.attributes), read_write(particles.position),
+                       read_write(particles.velocity)});
+}
+
+void Pbf::record_move(gpu::Commands& commands, const Fluid& fluid, std::uint32_t iteration)
+{
+    const ParticleBuffers& particles = fluid.particles;
+    const std::initializer_list<gpu::Binding> bindings{
+        read(fluid.params), read(particles.position), read(particles.acceleration), read_write(move_),
+        write(moved_),      write(particles.pressure)};
+    if (iteration == 0) {
+        commands.dispatch(move_kernel_, fluid.kernels.tiles(particles.count), iteration, bindings);
+    } else {
+        commands.dispatch_indirect(move_kernel_, solves_, tile_arguments, iteration, bindings);
+    }
+}
+
+void Pbf::record_residual(gpu::Commands& commands, const Fluid& fluid, std::uint32_t iteration)
+{
+    const ParticleBuffers& particles = fluid.particles;
+    const shared::ResidualPush push{.solve = shared::SOLVE_DENSITY, .iteration = iteration};
+    const std::initializer_list<gpu::Binding> bindings{read(fluid.params),
+                                                       read(fluid.grid.cell_start),
+                                                       read(particles.position),
+                                                       read(particles.position),
+                                                       read(moved_),
+                                                       read(moved_),
+                                                       read(particles.velocity),
+                                                       read(particles.velocity),
+                                                       read(particles.attributes),
+                                                       write(particles.density),
+                                                       write(particles.interaction),
+                                                       read_write(errors_),
+                                                       read_write(solves_),
+                                                       read(fluid.grid.neighbor_bits)};
+    if (iteration == 0) {
+        commands.dispatch(residual_, fluid.kernels.tiles(particles.count), push, bindings);
+    } else {
+        commands.dispatch_indirect(residual_, solves_, tile_arguments, push, bindings);
+    }
+}
+
+void Pbf::record_correct(gpu::Commands& commands, const Fluid& fluid)
+{
+    const ParticleBuffers& particles = fluid.particles;
+    commands.dispatch_indirect(correct_, solves_, tile_arguments, gpu::NoPush{},
+                               {read(fluid.params), read(fluid.grid.cell_start), read(particles.position),
+                                read(particles.position), read(moved_), read(moved_), read(particles.interaction),
+                                read(particles.interaction), read(particles.attributes), read(particles.velocity),
+                                read_write(move_), read_write(particles.pressure), read(fluid.grid.neighbor_bits)});
+}
+
+void Pbf::record_solve(gpu::Commands& commands, const Fluid& fluid)
+{
+    const gpu::Scope scope(commands, "solve density");
+    record_move(commands, fluid, 0);
+    record_residual(commands, fluid, 0);
+    for (std::uint32_t iteration = 1; iteration <= max_iterations_; ++iteration) {
+        record_correct(commands, fluid);
+        record_move(commands, fluid, iteration);
+        record_residual(commands, fluid, iteration);
+    }
+}
+
+void Pbf::record_finish(gpu::Commands& commands, const Fluid& fluid, std::uint32_t step)
+{
+    const ParticleBuffers& particles = fluid.particles;
+    const gpu::Scope scope(commands, "finish");
+    commands.dispatch(finish_, particles.count, step,
+                      {read(fluid.params), read(particles.id), read(particles.interaction), read(move_),
+                       read_write(particles.attributes), read_write(particles.position), read_write(particles.velocity),
+                       read_write(particles.pressure), read_write(fluid.status), read_write(solves_)});
+}
+
+std::uint64_t Pbf::device_bytes() const
+{
+    return move_.size() + moved_.size() + errors_.size() + solves_.size();
+}
+
+} // namespace meltpoint::sim
