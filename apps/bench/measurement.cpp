@@ -140,6 +140,21 @@ void require_same_motion(const ParticleSet& device, const ParticleSet& yardstick
     }
 }
 
+/// Mean of max(0, rho/rho0 - 1) over fluid.
+double mean_density_error(const ParticleSet& set, const shared::SphParams& params)
+{
+    double sum = 0.0;
+    std::size_t fluid = 0;
+    for (std::size_t i = 0; i < set.size(); ++i) {
+        if (shared::particle_state(set.attributes[i]) == shared::STATE_FLUID) {
+            const float rest_density = params.rest_density[shared::particle_material(set.attributes[i])];
+            sum += std::max(static_cast<double>(set.density[i] / rest_density) - 1.0, 0.0);
+            ++fluid;
+        }
+    }
+    return fluid > 0 ? sum / static_cast<double>(fluid) : 0.0;
+}
+
 std::unique_ptr<Yardstick> make_yardstick(const ParticleSet& state, const shared::SphParams& params,
                                           const sim::FluidOptions& options)
 {
@@ -191,12 +206,18 @@ std::vector<Result> measure(const gpu::Context& context, const ParticleSet& init
     }
     warm = simulations[0]->download();
     const shared::SphParams& params = simulations[0]->params();
-    const std::unique_ptr<Yardstick> yardstick = make_yardstick(warm, params, settings.options);
+    const std::unique_ptr<Yardstick> yardstick =
+        plan.own_steps ? nullptr : make_yardstick(warm, params, settings.options);
 
     const bool software = context.info().software();
     const double share = 1.0 / processors();
     std::vector<std::vector<double>> times(simulations.size());
     std::vector<double> yardstick_times;
+    std::vector<double> started_at;
+    for (const auto& simulation : simulations) {
+        started_at.push_back(simulation->time());
+        (void)simulation->take_solve_statistics();
+    }
     for (const std::uint32_t steps : portions(plan.steps)) {
         for (std::size_t i = 0; i < simulations.size(); ++i) {
             const auto advance = [&](std::uint32_t count) {
@@ -224,6 +245,11 @@ std::vector<Result> measure(const gpu::Context& context, const ParticleSet& init
         result.neighbors = simulations[i]->neighbor_statistics().mean;
         result.steps = plan.steps;
         result.step_ms = median(times[i]);
+        result.dt = (simulations[i]->time() - started_at[i]) / plan.steps;
+        result.density_error = mean_density_error(simulations[i]->download(), params);
+        if (const auto solves = simulations[i]->take_solve_statistics()) {
+            result.iterations = (*solves)[shared::SOLVE_DENSITY].mean_iterations;
+        }
         result.bytes = simulations[i]->device_bytes();
         if (yardstick) {
             result.yardstick_step_ms = median(yardstick_times);

@@ -16,6 +16,7 @@ struct Plan {
     std::vector<std::uint32_t> tiles; ///< particles an invocation; 0 is the device's own
     std::uint32_t warm_up = 100;      ///< steps before the measurement
     std::uint32_t steps = 70;         ///< measured, in up to seven portions
+    bool own_steps = false; ///< as long as the scene's, which may be the device's choice: without the yardstick
 };
 
 /// Steps of one tile size, and of the yardstick beside it in the same run.
@@ -25,10 +26,14 @@ struct Result {
     double neighbors = 0.0; ///< mean, within the support radius, a particle itself not counted
     std::uint32_t steps = 0;
     double step_ms = 0.0;
+    double dt = 0.0;                                    ///< s, mean of the measured steps
+    double density_error = 0.0;                         ///< mean of max(0, rho/rho0 - 1) after them
+    double iterations = 0.0;                            ///< of a density solve, mean; 0 where nothing is solved for
     std::vector<std::pair<std::string, double>> passes; ///< ms a step
     std::uint64_t bytes = 0;                            ///< of device memory
     std::optional<double> yardstick_step_ms;            ///< where the yardstick can do the scene on this processor
 
+    [[nodiscard]] double simulated_seconds_per_second() const { return dt / step_ms * 1e3; }
     [[nodiscard]] double particle_steps_per_second() const { return particles / step_ms * 1e3; }
     /// Pairs of a particle and a neighbor within its support radius; each step visits them once for density and once
     /// for forces, and counts them once here.

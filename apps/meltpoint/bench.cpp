@@ -26,6 +26,7 @@ struct BenchOptions {
     std::vector<std::uint32_t> tiles;
     std::uint32_t steps = 70;
     std::uint32_t warm_up = 100;
+    bool own_steps = false;
     std::string json;
 };
 
@@ -43,6 +44,12 @@ void print_table(const std::vector<bench::Result>& results)
                    result.tile, result.neighbors, result.step_ms, result.particle_steps_per_second() * 1e-6,
                    result.pair_visits_per_second() * 1e-9, static_cast<double>(result.bytes) / result.particles,
                    or_none(result.yardstick_step_ms), or_none(result.speedup()));
+    }
+    fmt::print("\n{:>10}{:>6}{:>13}{:>18}{:>15}{:>13}\n", "particles", "tile", "dt, ms", "simulated s/s",
+               "density error", "iterations");
+    for (const bench::Result& result : results) {
+        fmt::print("{:>10}{:>6}{:>13.4f}{:>18.5f}{:>15.6f}{:>13.2f}\n", result.particles, result.tile, result.dt * 1e3,
+                   result.simulated_seconds_per_second(), result.density_error, result.iterations);
     }
     fmt::print("\nms a pass\n{:>10}{:>6}", "particles", "tile");
     for (const auto& [name, milliseconds] : results.front().passes) {
@@ -76,6 +83,10 @@ nlohmann::ordered_json to_json(const gpu::Context& context, const std::vector<be
                                        {"neighbors", result.neighbors},
                                        {"steps", result.steps},
                                        {"step_ms", result.step_ms},
+                                       {"dt", result.dt},
+                                       {"simulated_s_per_s", result.simulated_seconds_per_second()},
+                                       {"density_error_mean", result.density_error},
+                                       {"iterations_density", result.iterations},
                                        {"passes", passes},
                                        {"particle_steps_per_s", result.particle_steps_per_second()},
                                        {"pair_visits_per_s", result.pair_visits_per_second()},
@@ -93,7 +104,8 @@ void measure_particles(const gpu::Context& context, const Scene& scene, const Pa
         log_warning(warning);
     }
     log_info(fmt::format("{}: {} particles, {} steps of warm-up", scene.name, particles.size(), plan.warm_up));
-    for (bench::Result& result : bench::measure(context, particles, with_fixed_steps(settings.simulation), plan)) {
+    for (bench::Result& result : bench::measure(
+             context, particles, plan.own_steps ? settings.simulation : with_fixed_steps(settings.simulation), plan)) {
         results.push_back(std::move(result));
     }
 }
@@ -103,6 +115,9 @@ int run_bench(const BenchOptions& options)
     if (!options.scene.scene.empty() && !options.particles.empty()) {
         throw input_error("--particles is for the benchmark's own block: --scene has its particles already");
     }
+    if (options.scene.scene.empty() && (!options.scene.overrides.empty() || options.own_steps)) {
+        throw input_error("--set and --own-steps are for scenes (--scene): the benchmark's own block is what it is");
+    }
     std::optional<AtomicFile> json;
     if (!options.json.empty()) {
         json.emplace(options.json);
@@ -111,7 +126,8 @@ int run_bench(const BenchOptions& options)
     const std::uint64_t limit = sim::Simulation::particle_limit(context);
     const bench::Plan plan{.tiles = options.tiles.empty() ? std::vector<std::uint32_t>{0} : options.tiles,
                            .warm_up = options.warm_up,
-                           .steps = options.steps};
+                           .steps = options.steps,
+                           .own_steps = options.own_steps};
     std::vector<bench::Result> results;
     if (!options.scene.scene.empty()) {
         const Scene scene = load_scene(options.scene);
@@ -159,6 +175,8 @@ void add_bench(CLI::App& app, const GlobalOptions& /*global*/, int& exit_code)
                      "Measured steps, in up to seven portions, of which the median counts [70]")
         ->type_name("S")
         ->check(CLI::Range(1u, 1'000'000u));
+    command->add_flag("--own-steps", options->own_steps,
+                      "Steps as long as the scene has them, chosen by the device where time.dt is auto; no yardstick");
     command->add_option("--warm-up", options->warm_up, "Steps before the measured ones [100]")
         ->type_name("S")
         ->check(CLI::Range(0u, 10'000'000u));
@@ -168,6 +186,7 @@ void add_bench(CLI::App& app, const GlobalOptions& /*global*/, int& exit_code)
         ->check(CLI::Range(1u, 16u));
     command->add_option("--scene", options->scene.scene, "Measures a scene instead of the block, as render takes it")
         ->type_name("F");
+    add_set_option(*command, options->scene);
     add_device_options(*command, options->scene);
     command->add_option("--json", options->json, "Also writes the results, one object a row, to this file")
         ->type_name("F");

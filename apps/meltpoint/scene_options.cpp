@@ -16,6 +16,16 @@ void add_device_options(CLI::App& command, SceneOptions& options)
                      "Vulkan validation and synchronization validation; any warning or error ends in exit code 1");
 }
 
+void add_set_option(CLI::App& command, SceneOptions& options)
+{
+    command
+        .add_option("--set", options.overrides,
+                    "Changes a key of the scene, KEY=VALUE: dotted keys, TOML values (physics.viscosity=0.1, "
+                    "domain.max=[1,2,1], fluid.0.velocity=[0,1,0]); may be repeated")
+        ->type_name("KEY=VALUE")
+        ->allow_extra_args(false);
+}
+
 void add_scene_options(CLI::App& command, SceneOptions& options)
 {
     command
@@ -23,12 +33,7 @@ void add_scene_options(CLI::App& command, SceneOptions& options)
                     "A scene file (.toml), the name of a built-in scene, or a mesh or a scan (a file or "
                     "builtin:NAME), which is filled with fluid and dropped")
         ->required();
-    command
-        .add_option("--set", options.overrides,
-                    "Changes a key of the scene, KEY=VALUE: dotted keys, TOML values (physics.viscosity=0.1, "
-                    "domain.max=[1,2,1], fluid.0.velocity=[0,1,0]); may be repeated")
-        ->type_name("KEY=VALUE")
-        ->allow_extra_args(false);
+    add_set_option(command, options);
     command
         .add_option(
             "--mesh", options.mesh,

@@ -21,6 +21,8 @@ struct SceneOptions {
 
 /// --device and --validate alone.
 void add_device_options(CLI::App& command, SceneOptions& options);
+/// --set alone.
+void add_set_option(CLI::App& command, SceneOptions& options);
 
 /// All of them.
 void add_scene_options(CLI::App& command, SceneOptions& options);

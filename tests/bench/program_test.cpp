@@ -58,7 +58,8 @@ TEST_F(Bench, JsonHasARowForEverySizeAndTile)
         const nlohmann::json& row = document["results"][i];
         EXPECT_EQ(keys(row),
                   (std::set<std::string>{"particles", "tile", "neighbors", "steps", "step_ms", "passes",
-                                         "particle_steps_per_s", "pair_visits_per_s", "yardstick_step_ms", "speedup"}));
+                                         "particle_steps_per_s", "pair_visits_per_s", "yardstick_step_ms", "speedup",
+                                         "dt", "simulated_s_per_s", "density_error_mean", "iterations_density"}));
         EXPECT_EQ(row["particles"], particles[i]);
         EXPECT_EQ(row["tile"], tiles[i]);
         EXPECT_EQ(row["steps"], 5);
@@ -78,6 +79,22 @@ TEST_F(Bench, JsonHasARowForEverySizeAndTile)
         }
     }
     EXPECT_EQ(document["results"][0]["neighbors"], document["results"][1]["neighbors"]); // tiles change no bit
+}
+
+TEST_F(Bench, OwnStepsAreWhatTheSceneHas)
+{
+    const std::string block = "--scene block_3d --steps 9 --warm-up 9 --json '" + path("bench.json") + "'";
+    double at_fixed_steps = 0.0;
+    for (const std::string options : {" --set solver=pbf", " --set solver=pbf --own-steps"}) {
+        ASSERT_EQ(run(block + options + " --set time.dt=auto"), 0) << err_;
+        const nlohmann::json row = nlohmann::json::parse(test::read_bytes(path("bench.json")))["results"][0];
+        const double dt = row["dt"];
+        EXPECT_NEAR(row["simulated_s_per_s"].get<double>(), dt / row["step_ms"].get<double>() * 1e3, 1e-6);
+        EXPECT_GE(row["iterations_density"].get<double>(), 1.0);
+        EXPECT_LT(row["density_error_mean"].get<double>(), 0.011);
+        EXPECT_GT(dt, 1.01 * at_fixed_steps); // long, as nothing is fast yet
+        at_fixed_steps = dt;
+    }
 }
 
 TEST_F(Bench, PrintsATable)
