@@ -491,7 +491,7 @@ mutation "pbf: velocities do not see the moves" \
     shaders/sim/pbf_finish.comp \
     'velocity[i].xyz + its_move / params.dt' \
     'velocity[i].xyz + 0.8 * its_move / params.dt' \
-    physics_short_tests 'PositionBased.StillWater*'
+    conformance_tests '*PassConformance.SolvedPositions/Splash*'
 mutation "pbf: walls let moves through" \
     shaders/sim/pbf_move.comp \
     'its_move = with_contact(its_position.xyz, its_move, 1.0)' \
