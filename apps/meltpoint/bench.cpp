@@ -1,6 +1,8 @@
 #include <algorithm>
+#include <cstddef>
 #include <memory>
 #include <optional>
+#include <string_view>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -32,6 +34,12 @@ struct BenchOptions {
 
 constexpr std::uint32_t default_particles = 32768;
 
+/// Of its column, which keeps a distance from the one before.
+std::size_t pass_width(std::string_view name)
+{
+    return std::max<std::size_t>(16, name.size() + 2);
+}
+
 void print_table(const std::vector<bench::Result>& results)
 {
     fmt::print("{:>10}{:>6}{:>11}{:>11}{:>16}{:>15}{:>12}{:>15}{:>9}\n", "particles", "tile", "neighbors", "ms a step",
@@ -53,13 +61,13 @@ void print_table(const std::vector<bench::Result>& results)
     }
     fmt::print("\nms a pass\n{:>10}{:>6}", "particles", "tile");
     for (const auto& [name, milliseconds] : results.front().passes) {
-        fmt::print("{:>16}", name);
+        fmt::print("{:>{}}", name, pass_width(name));
     }
     fmt::print("\n");
     for (const bench::Result& result : results) {
         fmt::print("{:>10}{:>6}", result.particles, result.tile);
         for (const auto& [name, milliseconds] : result.passes) {
-            fmt::print("{:>16.4f}", milliseconds);
+            fmt::print("{:>{}.4f}", milliseconds, pass_width(name));
         }
         fmt::print("\n");
     }

@@ -18,15 +18,6 @@ using gpu::read;
 using gpu::read_write;
 using gpu::write;
 
-namespace {
-
-VkDeviceSize arguments_of(std::uint32_t solve)
-{
-    return solve * sizeof(shared::Solve) + offsetof(shared::Solve, groups);
-}
-
-} // namespace
-
 Dfsph::Dfsph(const gpu::Context& context, const FluidOptions& options, const shared::SphParams& params)
     : max_iterations_(std::max(params.max_iterations, 1u)), particles_(params.particle_count),
       correct_(context, "dfsph_correct", sim_dfsph_correct_comp, fluid_constants(context.info(), options)),
@@ -38,21 +29,16 @@ Dfsph::Dfsph(const gpu::Context& context, const FluidOptions& options, const sha
       jacobi_step_(gpu::make_buffer<float>(context, particles_, "Jacobi step")),
       solves_(gpu::make_buffer<shared::Solve>(context, shared::SOLVES, "solves"))
 {
-    const std::uint32_t tile = fluid_constants(context.info(), options)[1].value;
-    const auto [x, y, z] = gpu::workgroups(context, residual_, (particles_ + tile - 1) / tile);
-    errors_ = gpu::make_buffer<glm::vec2>(context, x * y, "solve errors");
+    errors_ =
+        gpu::make_buffer<glm::vec2>(context, tile_workgroups(context, residual_, options, particles_), "solve errors");
 }
 
 void Dfsph::record_start(gpu::Commands& commands, const Fluid& fluid)
 {
     commands.fill(warm_start_, 0);
     commands.fill(solves_, 0);
-    sim::record_sort(commands, fluid.kernels, fluid.params, fluid.particles, fluid.grid);
-    record_boundary_weight(commands, fluid.kernels, fluid.params, fluid.particles, fluid.grid);
     commands.fill(fluid.particles.pressure, 0);
-    record_density(commands, fluid.kernels, fluid.params, fluid.particles, fluid.grid);
-    record_forces(commands, fluid.kernels, fluid.params, fluid.particles, fluid.grid);
-    fluid.vorticity.record_confinement(commands, fluid.kernels, fluid.params, fluid.particles, fluid.grid);
+    record_initial_state(commands, fluid);
 }
 
 void Dfsph::record_step(gpu::Commands& commands, const Fluid& fluid, std::uint32_t step)

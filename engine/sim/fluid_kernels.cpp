@@ -4,6 +4,7 @@
 #include <cstdint>
 
 #include "core/error.h"
+#include "gpu/commands.h"
 #include "spirv/sim/boundary_weight.comp.h"
 #include "spirv/sim/cell_key.comp.h"
 #include "spirv/sim/count_neighbors.comp.h"
@@ -44,6 +45,14 @@ std::array<gpu::SpecConstant, 6> fluid_constants(const gpu::DeviceInfo& device, 
 std::uint32_t default_tile(const gpu::DeviceInfo& device)
 {
     return device.software() ? 4 : 1;
+}
+
+std::uint32_t tile_workgroups(const gpu::Context& context, const gpu::Kernel& kernel, const FluidOptions& options,
+                              std::uint32_t particles)
+{
+    const std::uint32_t tile = checked_tile(context.info(), options.tile);
+    const auto [x, y, z] = gpu::workgroups(context, kernel, (particles + tile - 1) / tile);
+    return x * y * z;
 }
 
 FluidKernels::FluidKernels(const gpu::Context& context, const FluidOptions& options)

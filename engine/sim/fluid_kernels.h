@@ -26,6 +26,10 @@ struct FluidOptions {
 /// 4 on software devices, where loading a candidate costs more than using it; 1 on GPUs.
 [[nodiscard]] std::uint32_t default_tile(const gpu::DeviceInfo& device);
 
+/// Workgroups of a pass of which each invocation owns a tile.
+[[nodiscard]] std::uint32_t tile_workgroups(const gpu::Context& context, const gpu::Kernel& kernel,
+                                            const FluidOptions& options, std::uint32_t particles);
+
 /// One kernel a pass of the fluid step (shaders/sim).
 struct FluidKernels {
     /// Throws Input when options.tile is out of range.

@@ -41,9 +41,8 @@ ImplicitViscosity::ImplicitViscosity(const gpu::Context& context, const FluidOpt
       blocks_(gpu::make_buffer<shared::ViscosityBlock>(context, particles_, "viscous blocks")),
       state_(gpu::make_buffer<shared::ViscositySolve>(context, 1, "viscosity solve"))
 {
-    const std::uint32_t tile = fluid_constants(context.info(), options)[1].value;
-    const auto [x, y, z] = gpu::workgroups(context, initial_residual_, (particles_ + tile - 1) / tile);
-    sums_ = gpu::make_buffer<glm::vec4>(context, std::size_t{x} * y, "viscous sums");
+    sums_ = gpu::make_buffer<glm::vec4>(context, tile_workgroups(context, initial_residual_, options, particles_),
+                                        "viscous sums");
 }
 
 void ImplicitViscosity::record_start(gpu::Commands& commands)

@@ -17,13 +17,6 @@ using gpu::read;
 using gpu::read_write;
 using gpu::write;
 
-namespace {
-
-/// Workgroups of the passes that own a tile an invocation.
-constexpr VkDeviceSize tile_arguments = shared::SOLVE_DENSITY * sizeof(shared::Solve) + offsetof(shared::Solve, groups);
-
-} // namespace
-
 Pbf::Pbf(const gpu::Context& context, const FluidOptions& options, const shared::SphParams& params)
     : max_iterations_(std::max(params.max_iterations, 1u)), particles_(params.particle_count),
       predict_(context, "pbf_predict", sim_pbf_predict_comp),
@@ -35,20 +28,15 @@ Pbf::Pbf(const gpu::Context& context, const FluidOptions& options, const shared:
       moved_(gpu::make_texel_buffer(context, particles_, "moved position")),
       solves_(gpu::make_buffer<shared::Solve>(context, shared::SOLVES, "solves"))
 {
-    const std::uint32_t tile = fluid_constants(context.info(), options)[1].value;
-    const auto [x, y, z] = gpu::workgroups(context, residual_, (particles_ + tile - 1) / tile);
-    errors_ = gpu::make_buffer<glm::vec2>(context, x * y, "solve errors");
+    errors_ =
+        gpu::make_buffer<glm::vec2>(context, tile_workgroups(context, residual_, options, particles_), "solve errors");
 }
 
 void Pbf::record_start(gpu::Commands& commands, const Fluid& fluid)
 {
     commands.fill(solves_, 0);
-    record_sort(commands, fluid.kernels, fluid.params, fluid.particles, fluid.grid);
-    record_boundary_weight(commands, fluid.kernels, fluid.params, fluid.particles, fluid.grid);
     commands.fill(fluid.particles.pressure, 0);
-    record_density(commands, fluid.kernels, fluid.params, fluid.particles, fluid.grid);
-    record_forces(commands, fluid.kernels, fluid.params, fluid.particles, fluid.grid);
-    fluid.vorticity.record_confinement(commands, fluid.kernels, fluid.params, fluid.particles, fluid.grid);
+    record_initial_state(commands, fluid);
 }
 
 void Pbf::record_step(gpu::Commands& commands, const Fluid& fluid, std::uint32_t step)
@@ -82,7 +70,7 @@ void Pbf::record_move(gpu::Commands& commands, const Fluid& fluid, std::uint32_t
     if (iteration == 0) {
         commands.dispatch(move_kernel_, fluid.kernels.tiles(particles.count), iteration, bindings);
     } else {
-        commands.dispatch_indirect(move_kernel_, solves_, tile_arguments, iteration, bindings);
+        commands.dispatch_indirect(move_kernel_, solves_, arguments_of(shared::SOLVE_DENSITY), iteration, bindings);
     }
 }
 
@@ -107,14 +95,14 @@ void Pbf::record_residual(gpu::Commands& commands, const Fluid& fluid, std::uint
     if (iteration == 0) {
         commands.dispatch(residual_, fluid.kernels.tiles(particles.count), push, bindings);
     } else {
-        commands.dispatch_indirect(residual_, solves_, tile_arguments, push, bindings);
+        commands.dispatch_indirect(residual_, solves_, arguments_of(shared::SOLVE_DENSITY), push, bindings);
     }
 }
 
 void Pbf::record_correct(gpu::Commands& commands, const Fluid& fluid)
 {
     const ParticleBuffers& particles = fluid.particles;
-    commands.dispatch_indirect(correct_, solves_, tile_arguments, gpu::NoPush{},
+    commands.dispatch_indirect(correct_, solves_, arguments_of(shared::SOLVE_DENSITY), gpu::NoPush{},
                                {read(fluid.params), read(fluid.grid.cell_start), read(particles.position),
                                 read(particles.position), read(moved_), read(moved_), read(particles.interaction),
                                 read(particles.interaction), read(particles.attributes), read(particles.velocity),

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <memory>
 
@@ -28,6 +29,12 @@ struct Fluid {
     BoundaryForces* boundary_forces = nullptr; ///< null where nobody measures them
     ImplicitViscosity* viscosity = nullptr;    ///< null where viscosity is a force like the others
 };
+
+/// Where, in a buffer of shared::Solve[SOLVES], the workgroups of a solve's next iteration are.
+constexpr VkDeviceSize arguments_of(std::uint32_t solve)
+{
+    return solve * sizeof(shared::Solve) + offsetof(shared::Solve, groups);
+}
 
 /// How a fluid gets its pressure and takes a step: the one interface of all solvers.
 class Solver {

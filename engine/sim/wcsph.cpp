@@ -70,13 +70,18 @@ void record_count_neighbors(gpu::Commands& commands, const FluidKernels& kernels
                        read(particles.id), write(counts)});
 }
 
-void Wcsph::record_start(gpu::Commands& commands, const Fluid& fluid)
+void record_initial_state(gpu::Commands& commands, const Fluid& fluid)
 {
     record_sort(commands, fluid.kernels, fluid.params, fluid.particles, fluid.grid);
     record_boundary_weight(commands, fluid.kernels, fluid.params, fluid.particles, fluid.grid);
     record_density(commands, fluid.kernels, fluid.params, fluid.particles, fluid.grid);
     record_forces(commands, fluid.kernels, fluid.params, fluid.particles, fluid.grid);
     fluid.vorticity.record_confinement(commands, fluid.kernels, fluid.params, fluid.particles, fluid.grid);
+}
+
+void Wcsph::record_start(gpu::Commands& commands, const Fluid& fluid)
+{
+    record_initial_state(commands, fluid);
 }
 
 void Wcsph::record_step(gpu::Commands& commands, const Fluid& fluid, std::uint32_t step)

@@ -34,6 +34,10 @@ void record_kick(gpu::Commands& commands, const FluidKernels& kernels, const gpu
 void record_count_neighbors(gpu::Commands& commands, const FluidKernels& kernels, const gpu::Buffer& params,
                             const ParticleBuffers& particles, const NeighborGrid& grid, const gpu::Buffer& counts);
 
+/// What every solver starts from: sorted particles, boundary weights, densities, accelerations; pressures where a state
+/// equation gives them.
+void record_initial_state(gpu::Commands& commands, const Fluid& fluid);
+
 /// Weakly compressible SPH: pressure from the density by a state equation, velocity Verlet.
 class Wcsph : public Solver {
 public:

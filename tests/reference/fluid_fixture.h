@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 
 #include "core/random.h"
@@ -72,6 +73,24 @@ inline glm::dvec3 random_vector(Random& random)
     const double y = random.uniform();
     const double z = random.uniform();
     return 2.0 * glm::dvec3(x, y, z) - 1.0;
+}
+
+/// Adds fluid of two masses that moves at random, 6^3 particles on a lattice that is `pressed` times as wide as their
+/// spacing, moved by up to `jitter` spacings, above a plate of boundary particles.
+inline void add_mixture_on_plate(State& state, const glm::dvec3& first, double spacing, double pressed, double jitter)
+{
+    for (int i = 0; i < 216; ++i) {
+        add_particle(state, first + pressed * spacing * glm::dvec3(i % 6, i / 6 % 6, i / 36), spacing);
+    }
+    Random random(4);
+    for (std::size_t i = 0; i < state.size(); ++i) {
+        state.position[i] += jitter * spacing * random_vector(random);
+        state.velocity[i] = random_vector(random);
+        state.mass[i] *= i % 3 == 0 ? 0.6 : 1.0;
+    }
+    for (int i = 0; i < 36; ++i) {
+        add_boundary_particle(state, first + spacing * glm::dvec3(i % 6, -0.8, i / 6));
+    }
 }
 
 } // namespace meltpoint::reference

@@ -27,19 +27,9 @@ protected:
         settings.params.artificial_pressure = 0.0f;
     }
 
-    /// A jittered cube of fluid of two masses, with a plate of boundary particles below.
     void add_everything()
     {
-        add_lattice(state, glm::dvec3(0.4), glm::ivec3(6), 0.95 * D);
-        Random random(4);
-        for (std::size_t i = 0; i < state.size(); ++i) {
-            state.position[i] += 0.2 * D * random_vector(random);
-            state.velocity[i] = random_vector(random);
-            state.mass[i] *= i % 3 == 0 ? 0.6 : 1.0;
-        }
-        for (int i = 0; i < 36; ++i) {
-            add_boundary_particle(state, {0.4 + D * (i % 6), 0.4 - 0.8 * D, 0.4 + D * (i / 6)});
-        }
+        add_mixture_on_plate(state, glm::dvec3(0.4), D, 0.95, 0.2);
         find();
         update_boundary_weights(settings, state, neighbors);
         update_density(settings, state, neighbors);

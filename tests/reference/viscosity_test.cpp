@@ -45,16 +45,7 @@ protected:
     {
         settings.params.wall_mask = 1;
         settings.params.wall_viscosity = 3.0f;
-        add_lattice(state, {0.5 * D, 0.4, 0.4}, glm::ivec3(6), D);
-        Random random(4);
-        for (std::size_t i = 0; i < state.size(); ++i) {
-            state.position[i] += 0.3 * D * random_vector(random);
-            state.velocity[i] = random_vector(random);
-            state.mass[i] *= i % 3 == 0 ? 0.6 : 1.0;
-        }
-        for (int i = 0; i < 36; ++i) {
-            add_boundary_particle(state, {0.5 * D + D * (i % 6), 0.4 - 0.8 * D, 0.4 + D * (i / 6)});
-        }
+        add_mixture_on_plate(state, {0.5 * D, 0.4, 0.4}, D, 1.0, 0.3);
         find();
     }
 
