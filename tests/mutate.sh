@@ -406,6 +406,23 @@ mutation "colliders: points sink through what is thin" \
     'return depth' \
     unit_tests 'SunkSamples.*'
 
+# --- several fluids ------------------------------------------------------------------------------------------------------
+mutation "several fluids: the other one's viscosity alone" \
+    shaders/include/mixed_viscosity.glsl \
+    'return own > 0.0 ? 2.0 * own / (own + other) : 0.0' \
+    'return 1.0' \
+    conformance_tests '*PassConformance.SeveralFluids/Splash*'
+mutation "several fluids: density is a sum of the neighbors' masses" \
+    shaders/sim/density.comp \
+    'sum[k] += xj.w * density_shape(r2, size)' \
+    'sum[k] += xj.w * load_candidate(velocity, j).w / max(load_candidate(velocity, min(tile.first + k, tile.last)).w, 1e-30) * density_shape(r2, size)' \
+    physics_short_tests 'Multiphase.OilRestsOnWater'
+mutation "several fluids: every fluid has the scene's viscosity" \
+    engine/scene/materials.h \
+    'body.viscosity.value_or(scene.physics.viscosity)' \
+    'scene.physics.viscosity' \
+    unit_tests 'FluidSettings.FluidsHaveTheirOwnViscosityOrTheScenes'
+
 # --- solved pressure and time steps ---------------------------------------------------------------------------------------
 mutation "solve: the diagonal forgets the neighbors" \
     shaders/sim/density.comp \

@@ -158,6 +158,10 @@ double mean_density_error(const ParticleSet& set, const shared::SphParams& param
 std::unique_ptr<Yardstick> make_yardstick(const ParticleSet& state, const shared::SphParams& params,
                                           const sim::FluidOptions& options)
 {
+    if (options.mixed_viscosity) {
+        log_warning("the yardstick knows one viscosity: this scene is measured without it");
+        return nullptr;
+    }
     if (options.tension) {
         log_warning("the yardstick has no surface tension: this scene is measured without it");
         return nullptr;

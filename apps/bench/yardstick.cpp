@@ -39,7 +39,7 @@ class Yardstick::State {
 public:
     State(const ParticleSet& particles, const shared::SphParams& params, std::uint32_t kernel, std::uint32_t threads)
         : params_(params), kernel_(kernel), threads_(std::max(threads, 1u)),
-          fluid_{params.support_radius, params.density_scale, params.viscosity * params.viscosity_scale,
+          fluid_{params.support_radius, params.density_scale, params.viscosity[0] * params.viscosity_scale,
                  kernel == shared::KERNEL_WENDLAND},
           wall_friction_(
               params.wall_viscosity * params.viscosity_scale /

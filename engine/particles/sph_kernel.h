@@ -86,6 +86,14 @@ inline constexpr double MAX_SUPPORT_RATIO = 8.0; ///< above, a particle has more
 /// particle's signed distance to the wall in meters, positive inside; the kernel is that of the continuum.
 [[nodiscard]] double wall_viscosity_integral(std::uint32_t kernel, double distance, double support_radius);
 
+/// The same viscosity (Pa s) for every fluid.
+inline void set_viscosity(shared::SphParams& params, float viscosity)
+{
+    for (float& each : params.viscosity) {
+        each = viscosity;
+    }
+}
+
 /// Fills the spacing (m) and what follows from it, kernel, support radius and speed of sound: the five kernel scales
 /// divided by their lattice moments, the relaxation of pressure solves, the unit of artificial pressure, and the
 /// contact spring. params.support_radius and params.speed_of_sound must be set. Throws as lattice_moments does.

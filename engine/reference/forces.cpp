@@ -21,14 +21,6 @@ double volume(const Settings& settings, const State& state, std::size_t i)
                                  : state.mass[i] / state.density[i];
 }
 
-// Of fluid against i, Pa s.
-double viscosity_against(const Settings& settings, const State& state, std::size_t i)
-{
-    return static_cast<double>(is_boundary(state, i)
-                                   ? settings.params.friction[shared::particle_material(state.attributes[i])]
-                                   : settings.params.viscosity);
-}
-
 // A pair as particle i sees it.
 struct Pair {
     std::size_t j;
@@ -55,6 +47,17 @@ Pair make_pair(const Settings& settings, const State& state, std::size_t i, cons
 
 } // namespace
 
+double viscosity_against(const Settings& settings, const State& state, std::size_t i, std::size_t j)
+{
+    const auto of = [&](std::size_t k) {
+        return static_cast<double>(settings.params.viscosity[shared::particle_material(state.attributes[k])]);
+    };
+    if (is_boundary(state, j)) {
+        return static_cast<double>(settings.params.friction[shared::particle_material(state.attributes[j])]);
+    }
+    return of(i) > 0.0 && of(j) > 0.0 ? 2.0 * of(i) * of(j) / (of(i) + of(j)) : 0.0;
+}
+
 VectorSum pressure_acceleration(const Settings& settings, const State& state, const Neighbors& neighbors, std::size_t i)
 {
     const double scale = static_cast<double>(settings.params.gradient_scale);
@@ -80,7 +83,7 @@ VectorSum viscosity_acceleration(const Settings& settings, const State& state, c
     for (const Neighbor& neighbor : neighbors.of(i)) {
         const Pair pair = make_pair(settings, state, i, neighbor);
         const double laplacian = scale * viscosity_shape(settings.kernel, pair.q);
-        const double viscosity = viscosity_against(settings, state, pair.j);
+        const double viscosity = viscosity_against(settings, state, i, pair.j);
         sum.add(factor * viscosity * volume(settings, state, pair.j) * laplacian * (pair.velocity - state.velocity[i]));
     }
     return sum;

@@ -34,13 +34,18 @@ struct VectorSum {
 /// nearer than COINCIDENT_RATIO support radii have no gradient. Particle i is fluid; the volume of a boundary particle
 /// j is s_j d^3.
 
+/// Of fluid i against j, Pa s: the harmonic mean of two fluids (Cleary & Monaghan 1999), a boundary particle's
+/// friction.
+[[nodiscard]] double viscosity_against(const Settings& settings, const State& state, std::size_t i, std::size_t j);
+
 /// -(1/m_i) sum_j (p_i V_i^2 s_j + p_j V_j^2 s_i) grad W_ij with V = m/rho and the weights s; boundary particles have
 /// no pressure.
 [[nodiscard]] VectorSum pressure_acceleration(const Settings& settings, const State& state, const Neighbors& neighbors,
                                               std::size_t i);
 
-/// (V_i/m_i) sum_j mu_j V_j (v_j - v_i) L_ij (Müller et al. 2003, equation 14, made to conserve momentum); mu_j is the
-/// fluid's viscosity, or the friction of a boundary particle.
+/// (V_i/m_i) sum_j mu_j V_j (v_j - v_i) L_ij (Müller et al. 2003, equation 14, made to conserve momentum); of two
+/// fluids mu is the harmonic mean of their viscosities (Cleary & Monaghan 1999), against a boundary particle its
+/// friction.
 [[nodiscard]] VectorSum viscosity_acceleration(const Settings& settings, const State& state, const Neighbors& neighbors,
                                                std::size_t i);
 

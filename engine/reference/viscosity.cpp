@@ -37,7 +37,7 @@ glm::dmat3 pair_matrix(const Settings& settings, const State& state, std::size_t
     }
     const double shape = pair_viscosity_shape(static_cast<double>(params.pair_viscosity_taper), q);
     const double c =
-        static_cast<double>(params.viscosity) * volumes * static_cast<double>(params.pair_viscosity_scale) * shape;
+        viscosity_against(settings, state, i, j) * volumes * static_cast<double>(params.pair_viscosity_scale) * shape;
     return c * glm::outerProduct(offset / r, offset / r);
 }
 

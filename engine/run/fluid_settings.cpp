@@ -39,11 +39,32 @@ double support_radius(const Scene& scene)
 double largest_viscosity(const Scene& scene)
 {
     const float at_walls = scene.domain.walls ? scene.domain.wall_viscosity : 0.0f;
-    float largest = std::max(scene.physics.viscosity, at_walls);
+    float largest = at_walls;
+    for (const FluidBody& fluid : scene.fluids) {
+        largest = std::max(largest, fluid.viscosity.value_or(scene.physics.viscosity));
+    }
     for (const ColliderBody& collider : scene.colliders) {
         largest = std::max(largest, collider.friction);
     }
     return static_cast<double>(largest);
+}
+
+/// Pa s, of the thinnest fluid.
+double least_viscosity(const Scene& scene)
+{
+    float least = std::numeric_limits<float>::infinity();
+    for (const FluidBody& fluid : scene.fluids) {
+        least = std::min(least, fluid.viscosity.value_or(scene.physics.viscosity));
+    }
+    return static_cast<double>(least);
+}
+
+bool differ_in_viscosity(const Scene& scene)
+{
+    return std::ranges::any_of(scene.fluids, [&](const FluidBody& fluid) {
+        const float first = scene.fluids.front().viscosity.value_or(scene.physics.viscosity);
+        return fluid.viscosity.value_or(scene.physics.viscosity) != first;
+    });
 }
 
 /// How far x can fall along gravity before it meets the domain's border, times |g|.
@@ -209,7 +230,6 @@ FluidSettings fluid_settings(const Scene& scene, const ParticleSet& particles)
     params.speed_of_sound = scene.physics.speed_of_sound.value_or(static_cast<float>(sound_per_speed * speed));
     params.gamma = scene.physics.gamma;
     params.background_pressure = scene.physics.background_pressure;
-    params.viscosity = scene.physics.viscosity;
     params.wall_viscosity = scene.domain.wall_viscosity;
     params.xsph = scene.physics.xsph.value_or(scene.solver == Solver::Pbf ? 0.01f : 0.0f);
     params.vorticity_confinement = scene.physics.vorticity_confinement;
@@ -227,6 +247,7 @@ FluidSettings fluid_settings(const Scene& scene, const ParticleSet& particles)
     const SceneMaterials materials = scene_materials(scene);
     for (std::size_t i = 0; i < materials.materials.size(); ++i) {
         params.rest_density[i] = materials.materials[i].rest_density;
+        params.viscosity[i] = materials.materials[i].viscosity;
         params.friction[i] = materials.materials[i].friction;
     }
 
@@ -269,11 +290,11 @@ FluidSettings fluid_settings(const Scene& scene, const ParticleSet& particles)
     // energy falls from about 0.005 rho c0 d on).
     const double calming = 0.005 * heaviest_rest_density(scene) * static_cast<double>(params.speed_of_sound) *
                            static_cast<double>(scene.particles.spacing);
-    if (scene.kernel == SphKernel::Paper && static_cast<double>(scene.physics.viscosity) < calming) {
+    if (scene.kernel == SphKernel::Paper && least_viscosity(scene) < calming) {
         settings.warnings.push_back(
             fmt::format("physics.viscosity is {:.4g} Pa s; below about {:.2g} Pa s the paper's kernels "
                         "feed energy into this scene (kernel = \"wendland\" does not)",
-                        scene.physics.viscosity, calming));
+                        least_viscosity(scene), calming));
     }
     // The CFL bound of the particles' own speed; the sound's is for the warning above.
     params.longest_move = (solved ? 0.5f : 0.4f * 0.5f) * params.support_radius;
@@ -284,6 +305,7 @@ FluidSettings fluid_settings(const Scene& scene, const ParticleSet& particles)
 
     options.solver = solver_number(scene.solver);
     options.kernel = scene.kernel == SphKernel::Wendland ? shared::KERNEL_WENDLAND : shared::KERNEL_PAPER;
+    options.mixed_viscosity = differ_in_viscosity(scene);
     options.tension = scene.physics.surface_tension > 0.0f;
     options.xsph = params.xsph > 0.0f;
     options.confinement = params.vorticity_confinement > 0.0f;

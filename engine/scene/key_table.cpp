@@ -248,7 +248,7 @@ std::vector<SceneKey> make_scene_keys()
         k("particles.support_ratio", FIELD(particles.support_ratio), "", Range{1.25, 4}, "support radius H of the kernels, in spacings"),
 
         k("physics.gravity", FIELD(physics.gravity), "m/s^2", Range{-1e4, 1e4}, "acceleration of everything"),
-        k("physics.viscosity", FIELD(physics.viscosity), "Pa s", Range{0, 1e4}, "dynamic; water has 0.001, but at this resolution splashes look right with more"),
+        k("physics.viscosity", FIELD(physics.viscosity), "Pa s", Range{0, 1e4}, "dynamic, of fluids that have none of their own; water has 0.001, but at this resolution splashes look right with more"),
         choice<Scene>("physics.viscosity_model", FIELD(physics.viscosity_model), {{"auto", ViscosityModel::Auto}, {"explicit", ViscosityModel::Explicit}, {"implicit", ViscosityModel::Implicit}},
                       "explicit: a force like the others, which makes thick fluids take tiny steps (Mueller et al. 2003); implicit: solved for at the end of each step (Weiler et al. 2018), which bounds no step and leaves rotation alone; auto: implicit where the explicit one would shorten the steps"),
         k("physics.xsph", FIELD(physics.xsph), "", Range{0, 1}, "part of the difference between a particle's velocity and those around it that a step takes away (Monaghan 1989, Schechter & Bridson 2012); auto: 0.01 of pbf, else 0"),
@@ -352,6 +352,7 @@ std::vector<FluidKey> make_fluid_keys()
         liquid_key(),
         choice<FluidBody>("lattice", FIELD(lattice), {{"cubic", FluidLattice::Cubic}, {"blue-noise", FluidLattice::BlueNoise}}, "how its particles lie at the start: in rows, or evenly without any, relaxed until the density varies by 1 %"),
         k("rest_density", FIELD(rest_density), "kg/m^3", Range{1e-3, 1e5}, "density without pressure"),
+        k("viscosity", FIELD(viscosity), "Pa s", Range{0, 1e4}, "dynamic; auto: physics.viscosity. Between two fluids the harmonic mean is at work"),
         k("velocity", FIELD(velocity), "m/s", SPEED, "at the start, of the whole body"),
         k("velocity_gradient", FIELD(velocity_gradient), "1/s", SPEED, "rows of a matrix; the matrix times the position adds to the velocity"),
         k("spin", FIELD(spin), "rad/s", SPEED, "spin x (position - spin_center) adds to the velocity"),

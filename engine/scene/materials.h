@@ -15,6 +15,7 @@ struct Material {
     float rest_density = 0.0f; ///< kg/m^3; 0 for colliders, which have no mass
     glm::vec3 color{0.0f};     ///< linear RGB
     float friction = 0.0f;     ///< Pa s, of fluid against a collider
+    float viscosity = 0.0f;    ///< Pa s, of fluids
 
     bool operator==(const Material&) const = default;
 };
@@ -25,7 +26,8 @@ struct SceneMaterials {
     std::vector<std::uint32_t> of_collider; ///< likewise for Scene::colliders
 };
 
-/// Fluids of equal rest density and color are one material, and so are colliders of equal color and friction.
+/// Fluids of equal rest density, viscosity and color are one material, and so are colliders of equal color and
+/// friction.
 inline SceneMaterials scene_materials(const Scene& scene)
 {
     SceneMaterials result;
@@ -38,7 +40,9 @@ inline SceneMaterials scene_materials(const Scene& scene)
         return index;
     };
     for (const FluidBody& body : scene.fluids) {
-        result.of_fluid.push_back(index_of({.rest_density = body.rest_density, .color = body.color}));
+        result.of_fluid.push_back(index_of({.rest_density = body.rest_density,
+                                            .color = body.color,
+                                            .viscosity = body.viscosity.value_or(scene.physics.viscosity)}));
     }
     for (const ColliderBody& body : scene.colliders) {
         result.of_collider.push_back(index_of({.color = body.color, .friction = body.friction}));

@@ -35,7 +35,7 @@ struct ParticleSettings {
 /// What moves the fluid.
 struct FluidPhysics {
     glm::vec3 gravity{0.0f, -9.81f, 0.0f}; ///< m/s^2
-    float viscosity = 0.5f;                ///< dynamic, Pa s
+    float viscosity = 0.5f;                ///< dynamic, Pa s, of fluids that have none of their own
     ViscosityModel viscosity_model = ViscosityModel::Auto;
     std::optional<float> xsph;          ///< part of the differences that a step takes away; auto: 0.01 of pbf, else 0
     float vorticity_confinement = 0.0f; ///< epsilon of Macklin & Mueller 2013, m/s
@@ -103,6 +103,7 @@ struct FluidBody {
     std::string liquid = "custom";              ///< what its values were taken from (scene/liquids.h), or "custom"
     FluidLattice lattice = FluidLattice::Cubic; ///< how its particles lie at the start
     float rest_density = 1000.0f;               ///< kg/m^3
+    std::optional<float> viscosity;             ///< dynamic, Pa s; auto: the scene's
     glm::vec3 velocity{0.0f};                   ///< m/s
     glm::mat3 velocity_gradient{
         0.0f};            ///< 1/s: adds gradient * position (a column-major glm matrix: gradient[column][row])

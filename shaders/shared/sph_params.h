@@ -63,7 +63,6 @@ struct SphParams {
     float speed_of_sound;      // c0, m/s
     float gamma;               // Tait exponent
     float background_pressure; // Pa
-    float viscosity;           // dynamic, mu, Pa s
     float wall_viscosity;      // dynamic, of fluid against walls, Pa s; 0 is free slip
     float surface_tension;     // sigma of the paper's tension, N/m
     float tension_threshold;   // on |n| H, dimensionless: below it a particle is interior and feels no tension
@@ -116,6 +115,7 @@ struct SphParams {
     float spacing;     // d, m, of particles at rest
 
     float rest_density[MAX_MATERIALS]; // kg/m^3, of fluids
+    float viscosity[MAX_MATERIALS];    // dynamic, mu, Pa s, of fluids
     float friction[MAX_MATERIALS];     // dynamic viscosity of fluid against colliders, Pa s; 0 is free slip
 };
 

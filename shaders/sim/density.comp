@@ -103,7 +103,7 @@ void main()
         float rho = mass * params.density_scale * sum[k];
         float d3 = params.spacing * params.spacing * params.spacing;
         float volume = boundary ? own[k].w * d3 : mass / rho;
-        float viscosity = boundary ? params.friction[material] : params.viscosity;
+        float viscosity = boundary ? params.friction[material] : params.viscosity[material];
         vec4 its_interaction = vec4(0.0, volume, params.viscosity_scale * viscosity * volume, 0.0);
         if (SOLVED_PRESSURE) {
             float response = dot(gradient[k], gradient[k]) / mass + gradient_squares[k];

@@ -3,7 +3,7 @@
 #extension GL_GOOGLE_include_directive : require
 // Accelerations: pressure, viscosity and the paper's surface tension, of the particles and their images in the walls; gravity;
 // wall friction and contact. Pair forces are symmetric, so momentum is conserved: F_ij = -(p_i V_i^2 s_j + p_j V_j^2 s_i)
-// grad W + mu V_i V_j (v_j - v_i) lap W, with V = m / rho and the weights s (Mueller et al. 2003 as corrected; Solenthaler &
+// grad W + mu_ij V_i V_j (v_j - v_i) lap W, with V = m / rho and the weights s (Mueller et al. 2003 as corrected; Solenthaler &
 // Pajarola 2008; Akinci et al. 2012). Boundary particles do not move: what they feel is left out. Twin: engine/reference/forces.cpp.
 #define CELL_START_BINDING 1
 #define NEIGHBOR_BITS_BINDING 10
@@ -29,6 +29,7 @@ layout(set = 0, binding = 9, scalar) writeonly buffer Acceleration { vec4 accele
 
 #include "include/boundary.glsl"
 #include "include/image_walk.glsl"
+#include "include/mixed_viscosity.glsl"
 #include "include/neighbor_bits.glsl"
 
 // Friction against walls at rest, and the contact spring.
@@ -68,6 +69,7 @@ void main()
     float mass[TILE];
     float pressure_term[TILE]; // p V^2 gradient_scale
     float volume[TILE];        // V
+    float viscosity[TILE];     // mu, where fluids differ in it
     vec3 force[TILE];
     vec3 color_gradient[TILE];
     float color_laplacian[TILE];
@@ -79,6 +81,7 @@ void main()
         vec4 its_interaction = load_candidate(interaction, i);
         pressure_term[k] = its_interaction.x;
         volume[k] = its_interaction.y;
+        viscosity[k] = viscosity_of(its_interaction.xyz);
         force[k] = vec3(0.0);
         color_gradient[k] = vec3(0.0);
         color_laplacian[k] = 0.0;
@@ -102,18 +105,22 @@ void main()
         FOR_EACH_NEIGHBOR(tile, walk, x, chunks, bits) {
             uint j = chunks.first + findLSB(bits);
             vec4 xj = load_candidate(position, j);
-            vec3 vj = load_candidate(velocity, j).xyz;
+            vec4 velocity_j = load_candidate(velocity, j);
+            vec3 vj = velocity_j.xyz;
             vec3 interaction_j = load_candidate(interaction, j).xyz;
             float pressure_term_j = interaction_j.x;
             float volume_j = interaction_j.y;
             float viscous_term_j = SOLVED_VISCOSITY ? 0.0 : interaction_j.z;
+            float viscosity_j = viscosity_of(interaction_j);
+            bool mixes = MIXED_VISCOSITY && velocity_j.w > 0.0; // against colliders it is theirs alone
             [[unroll]] for (uint k = 0u; k < TILE; ++k) {
                 vec3 offset = x[k] - xj.xyz;
                 float r2 = dot(offset, offset);
                 vec2 shape = force_shapes(r2, size);
+                float viscous_term = mixes ? viscous_term_j * mean_viscosity_ratio(viscosity[k], viscosity_j) : viscous_term_j;
                 float pressure_terms = pressure_term[k] * xj.w + pressure_term_j;
                 float pressure = !SOLVED_PRESSURE && has_direction(r2, size) ? pressure_terms * shape.x : 0.0;
-                image_force[k] += pressure * offset + volume[k] * viscous_term_j * shape.y * (vj - v[k]);
+                image_force[k] += pressure * offset + volume[k] * viscous_term * shape.y * (vj - v[k]);
                 if (TENSION) {
                     vec2 color = color_shapes(r2, size);
                     image_gradient[k] -= volume_j * color.x * offset;

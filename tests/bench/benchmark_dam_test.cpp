@@ -40,7 +40,7 @@ TEST(BenchmarkDam, ScenesAreAsSpecified)
         EXPECT_EQ(params.state_equation, shared::STATE_EQUATION_TAIT);
         const double c0 = static_cast<double>(params.speed_of_sound);
         EXPECT_NEAR(1000.0 * c0 * c0 / static_cast<double>(params.gamma), 50'000.0, 1.0);
-        EXPECT_FLOAT_EQ(params.viscosity / params.rest_density[0], 0.01f);
+        EXPECT_FLOAT_EQ(params.viscosity[0] / params.rest_density[0], 0.01f);
         EXPECT_EQ(params.wall_viscosity, 0.0f);
         EXPECT_EQ(params.surface_tension, 0.0f);
     }

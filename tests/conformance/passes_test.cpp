@@ -1,5 +1,6 @@
 // Every pass of the fluid step on the device against its twin in double precision, over the states in which a pass
 // could go wrong, for both kernels and several tile sizes.
+#include <array>
 #include <tuple>
 
 #include "conformance/pass_comparison.h"
@@ -138,7 +139,7 @@ TEST_P(PassConformance, EachForceAlone)
 
     sim::SimulationSettings nothing = test_settings(kernel);
     nothing.params.gravity = glm::vec3(0.0f);
-    nothing.params.viscosity = 0.0f;
+    set_viscosity(nothing.params, 0.0f);
     nothing.params.wall_mask = 0;
     nothing.params.speed_of_sound = 0.0f;
     sim::SimulationSettings pressure = nothing;
@@ -148,7 +149,7 @@ TEST_P(PassConformance, EachForceAlone)
     linear.params.clamp_pressure = 0;
     linear.params.background_pressure = 500.0f;
     sim::SimulationSettings viscosity = nothing;
-    viscosity.params.viscosity = 3.0f;
+    set_viscosity(viscosity.params, 3.0f);
     sim::SimulationSettings tension = nothing;
     tension.options.tension = true;
     tension.params.surface_tension = 0.5f;
@@ -190,7 +191,7 @@ TEST_P(PassConformance, SolvedViscosity)
     const auto [state, kernel] = GetParam();
     sim::SimulationSettings settings = test_settings(kernel);
     settings.options.implicit_viscosity = true;
-    settings.params.viscosity = 300.0f;
+    set_viscosity(settings.params, 300.0f);
     settings.params.friction[1] = 100.0f;
     settings.params.wall_viscosity = 200.0f;
     settings.params.dt = 2e-3f;
@@ -228,6 +229,33 @@ TEST_P(PassConformance, XsphAndConfinement)
         settings.options.tile = tile;
         expect_conformance(settings, states()[state].make());
     }
+}
+
+// Three fluids side by side that differ in density and viscosity, one of which has none.
+TEST_P(PassConformance, SeveralFluids)
+{
+    const auto [state, kernel] = GetParam();
+    ParticleSet particles = states()[state].make();
+    constexpr std::uint32_t materials = 3;
+    constexpr std::array<std::uint32_t, materials> material{0, 2, 3}; // 1 is the colliders'
+    sim::SimulationSettings settings = test_settings(kernel);
+    settings.options.mixed_viscosity = true;
+    settings.params.rest_density[2] = 700.0f;
+    settings.params.rest_density[3] = 1300.0f;
+    settings.params.viscosity[2] = 20.0f;
+    settings.params.viscosity[3] = 0.0f;
+    for (std::size_t i = 0; i < particles.size(); ++i) {
+        if (!shared::is_boundary(particles.attributes[i])) {
+            const std::uint32_t m = material[i % 5 < materials ? i % 5 : 0];
+            particles.attributes[i] = shared::pack_attributes(shared::STATE_FLUID, m);
+            particles.mass[i] *= settings.params.rest_density[m] / test_rest_density;
+        }
+    }
+    expect_conformance(settings, particles);
+    settings.options.solver = shared::SOLVER_DFSPH;
+    settings.options.implicit_viscosity = true;
+    settings.params.dt = 2e-3f;
+    expect_conformance(settings, particles);
 }
 
 TEST_P(PassConformance, EveryTileSize)

@@ -84,7 +84,7 @@ TEST_F(Steps, StepsWithSolvedViscosityAreTheTwins)
         sim::SimulationSettings settings = solver == shared::SOLVER_DFSPH ? dfsph_settings(shared::KERNEL_WENDLAND)
                                                                           : test_settings(shared::KERNEL_WENDLAND);
         settings.options.implicit_viscosity = true;
-        settings.params.viscosity = 500.0f;
+        set_viscosity(settings.params, 500.0f);
         settings.params.friction[1] = 100.0f;
         settings.params.wall_viscosity = 50.0f;
         // A set number of iterations, or rounding alone would decide how many there are.
@@ -247,7 +247,7 @@ TEST_F(Steps, RerunsWithSolvedViscosityGiveTheSameBits)
     for (int run = 0; run < 3; ++run) {
         sim::SimulationSettings settings = dfsph_settings(shared::KERNEL_WENDLAND);
         settings.options.implicit_viscosity = true;
-        settings.params.viscosity = 500.0f;
+        set_viscosity(settings.params, 500.0f);
         sim::Simulation simulation(context(), falling_block(), settings);
         simulation.advance(40);
         const ParticleSet set = simulation.download();

@@ -137,7 +137,7 @@ TEST_P(WendlandBoundary, ForcesAreTheDerivativeOfTheEnergy)
 
 TEST_P(ReferenceBoundary, FrictionMatchesTheFormula)
 {
-    settings.params.viscosity = 7.0f; // of fluid against fluid: not at work here
+    set_viscosity(settings.params, 7.0f); // of fluid against fluid: not at work here
     settings.params.friction[1] = 0.3f;
     add_boundary_particle(state, glm::dvec3(0.5));
     add_particle(state, glm::dvec3(0.5 + 0.8 * D, 0.5, 0.5), D, {0.0, 2.0, -1.0});

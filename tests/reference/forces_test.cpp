@@ -81,7 +81,7 @@ TEST_P(ReferenceForces, SymmetricLatticeAtRestFeelsNothing)
 {
     const std::size_t middle = add_cube(4);
     std::fill(state.pressure.begin(), state.pressure.end(), 5000.0);
-    settings.params.viscosity = 1.0f;
+    set_viscosity(settings.params, 1.0f);
     settings.params.surface_tension = 1.0f;
     const Accelerations a = accelerations(settings, state, neighbors());
     EXPECT_GT(a.total[middle].magnitude, 1.0);
@@ -108,7 +108,7 @@ TEST_P(ReferenceForces, CoincidentParticlesHaveNoGradientAndAreCounted)
 
 TEST_P(ReferenceForces, ViscosityOfTwoParticlesMatchesTheFormula)
 {
-    settings.params.viscosity = 0.7f;
+    set_viscosity(settings.params, 0.7f);
     add_particle(state, {0.5, 0.5, 0.5}, D, {0.0, 0.3, 0.0});
     add_particle(state, {0.5 + D, 0.5, 0.5}, D, {0.0, -0.2, 0.1});
     state.density = {900.0, 1100.0};
@@ -123,9 +123,33 @@ TEST_P(ReferenceForces, ViscosityOfTwoParticlesMatchesTheFormula)
     expect_near(a.value * state.mass[0], -b.value * state.mass[1], 1e-12 * b.magnitude * state.mass[1]);
 }
 
+// Two fluids that slide over each other: with the harmonic mean the interface moves as fast as makes both stresses
+// equal, mu_1 slope_1 = mu_2 slope_2; and what one gives the other takes.
+TEST_P(ReferenceForces, BetweenTwoFluidsViscosityIsTheHarmonicMean)
+{
+    settings.params.viscosity[0] = 0.5f;
+    settings.params.viscosity[2] = 2.0f;
+    settings.params.friction[1] = 0.3f;
+    add_particle(state, {0.5, 0.5, 0.5}, D, {0.0, 1.0, 0.0});
+    add_particle(state, {0.5 + D, 0.5, 0.5}, D);
+    const auto force = [&](std::size_t i) {
+        return viscosity_acceleration(settings, state, neighbors(), i).value.y * state.mass[i];
+    };
+    const double thin = force(0);
+    EXPECT_LT(thin, 0.0);
+    state.attributes[1] = shared::pack_attributes(shared::STATE_FLUID, 2);
+    EXPECT_NEAR(force(0) / thin, 2.0 * 0.5 * 2.0 / (0.5 + 2.0) / 0.5, 1e-12);
+    EXPECT_NEAR(force(1) / force(0), -1.0, 1e-12);
+    settings.params.viscosity[2] = 0.0f;
+    EXPECT_EQ(force(0), 0.0);
+    state.attributes[1] = shared::pack_attributes(shared::STATE_COLLIDER, 1);
+    state.weight[1] = state.mass[1] / 1000.0 / std::pow(D, 3);
+    EXPECT_NEAR(force(0) / thin, 0.3 / 0.5, 1e-6); // friction is the collider's alone
+}
+
 TEST_P(ReferenceForces, ViscosityOfAParabolaIsItsSecondDerivative)
 {
-    settings.params.viscosity = 2.0f;
+    set_viscosity(settings.params, 2.0f);
     const std::size_t middle = add_cube(4);
     for (std::size_t i = 0; i < state.size(); ++i) {
         const glm::dvec3 r = state.position[i] - state.position[middle];
@@ -215,7 +239,7 @@ TEST_P(ReferenceForces, WallPushesAParticleAsItsImageWould)
 
 TEST_P(ReferenceForces, FluidSlipsAlongAWallAndResistsComingNearer)
 {
-    settings.params.viscosity = 0.7f;
+    set_viscosity(settings.params, 0.7f);
     settings.params.wall_mask = 1u << 2;
     add_particle(state, {0.5, 0.3 * D, 0.5}, D, {0.4, -0.1, 0.2});
     const VectorSum a = viscosity_acceleration(settings, state, neighbors(), 0);
@@ -300,7 +324,7 @@ TEST_P(ReferenceForces, ContactSpringPushesAndNeverPulls)
 
 TEST_P(ReferenceForces, InnerForcesOfADisorderedFluidConserveMomentum)
 {
-    settings.params.viscosity = 1.0f;
+    set_viscosity(settings.params, 1.0f);
     Random random(5);
     add_lattice(state, glm::dvec3(0.4), glm::ivec3(8), D);
     for (std::size_t i = 0; i < state.size(); ++i) {
@@ -322,7 +346,7 @@ TEST_P(ReferenceForces, InnerForcesOfADisorderedFluidConserveMomentum)
 
 TEST_P(ReferenceForces, TotalIsTheSumOfTheTermsAndGravity)
 {
-    settings.params.viscosity = 1.0f;
+    set_viscosity(settings.params, 1.0f);
     settings.params.surface_tension = 0.3f;
     settings.params.wall_viscosity = 0.5f;
     settings.params.wall_mask = 63;

@@ -60,7 +60,7 @@ TEST(ReferenceStep, ClosedSystemKeepsItsMomentumAndLosesEnergy)
 {
     for (const std::uint32_t kernel : {shared::KERNEL_PAPER, shared::KERNEL_WENDLAND}) {
         Settings settings = make_settings(kernel, D, 2.3);
-        settings.params.viscosity = 0.5f;
+        set_viscosity(settings.params, 0.5f);
         State state;
         add_lattice(state, glm::dvec3(0.4), glm::ivec3(6), D);
         Random random(3);

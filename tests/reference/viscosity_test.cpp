@@ -26,7 +26,7 @@ protected:
     {
         settings = make_settings(kernel, D, support_ratio);
         settings.implicit_viscosity = true;
-        settings.params.viscosity = static_cast<float>(MU);
+        set_viscosity(settings.params, static_cast<float>(MU));
         settings.params.friction[1] = 4.0f;
         settings.params.dt = 5e-3f; // nu dt / d^2 = 0.125
         settings.params.viscosity_error = 1e-6f;
@@ -242,7 +242,7 @@ TEST_F(ReferenceViscosity, NothingToDoTakesNoIteration)
         v = {1.0, -2.0, 0.5};
     }
     EXPECT_EQ(solve_viscosity(settings, state, neighbors).iterations, 0u);
-    settings.params.viscosity = 0.0f;
+    set_viscosity(settings.params, 0.0f);
     state.velocity = random_velocities(8);
     const std::vector<glm::dvec3> before = state.velocity;
     state.viscous_acceleration.clear();
@@ -254,7 +254,7 @@ TEST_F(ReferenceViscosity, TheLastStepsChangeIsAGoodStart)
 {
     // Fluid that creeps under a steady force: in every step viscosity does the same.
     add_everything();
-    settings.params.viscosity = 500.0f;
+    set_viscosity(settings.params, 500.0f);
     settings.params.friction[1] = 500.0f;
     settings.params.viscosity_error = 1e-3f;
     const auto pull = [&] {

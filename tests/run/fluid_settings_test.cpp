@@ -360,6 +360,25 @@ TEST(FluidSettings, CollidersDoNotFallButSlowTheStepByTheirFriction)
     EXPECT_NEAR(time_step_bounds(scene, 10.0, 1.0).viscosity, 0.5 * bound, 1e-6 * bound);
 }
 
+TEST(FluidSettings, FluidsHaveTheirOwnViscosityOrTheScenes)
+{
+    Scene scene = falling_block();
+    FluidBody oil = scene.fluids[0];
+    oil.shape = BlockShape{glm::vec3(-0.2f, 0.2f, -0.2f), glm::vec3(0.2f, 0.6f, 0.2f)};
+    scene.fluids.push_back(oil);
+    EXPECT_FALSE(settings_of(scene).simulation.options.mixed_viscosity);
+    EXPECT_EQ(settings_of(scene).simulation.params.viscosity[0], 0.01f);
+    scene.fluids[1].viscosity = 40.0f; // of the same density and color: still another material
+    const FluidSettings settings = settings_of(scene);
+    EXPECT_TRUE(settings.simulation.options.mixed_viscosity);
+    EXPECT_EQ(settings.simulation.params.viscosity[0], 0.01f);
+    EXPECT_EQ(settings.simulation.params.viscosity[1], 40.0f);
+    EXPECT_EQ(settings.simulation.params.rest_density[1], 1000.0f);
+    const double support = 0.2;
+    EXPECT_NEAR(static_cast<double>(settings.simulation.params.longest_dt),
+                std::min(0.06 * 1000.0 * support * support / 40.0, 1.0 / 60.0), 1e-5);
+}
+
 TEST(FluidSettings, MapsTheScene)
 {
     Scene scene = falling_block();

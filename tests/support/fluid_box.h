@@ -21,7 +21,7 @@ inline sim::SimulationSettings box_settings(std::uint32_t kernel, double support
     params.domain_max = test_spacing * glm::vec3(box);
     params.support_radius = static_cast<float>(support_ratio) * test_spacing;
     params.speed_of_sound = static_cast<float>(10.0 * expected_speed);
-    params.viscosity = static_cast<float>(viscosity);
+    set_viscosity(params, static_cast<float>(viscosity));
     params.dt = 0.4f * 0.5f * params.support_radius / (1.1f * params.speed_of_sound);
     params.speed_limit = params.speed_of_sound;
     set_kernel_scales(params, kernel, static_cast<double>(test_spacing));

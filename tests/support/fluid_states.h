@@ -31,7 +31,7 @@ inline sim::SimulationSettings test_settings(std::uint32_t kernel)
     params.clamp_pressure = 1;
     params.speed_of_sound = 40.0f;
     params.gamma = 7.0f;
-    params.viscosity = 1.0f;
+    set_viscosity(params, 1.0f);
     params.friction[1] = 2.0f;
     params.density_error = 1e-3f;
     params.divergence_error = 1e-3f;

@@ -28,7 +28,7 @@ struct Box {
         p.wall_mask = 63;
         p.gravity = {0.0f, -9.81f, 0.0f};
         p.state_equation = shared::STATE_EQUATION_TAIT;
-        p.viscosity = viscosity;
+        set_viscosity(p, viscosity);
         p.speed_of_sound = static_cast<float>(10.0 * expected_speed);
         p.dt = 0.2f * p.support_radius / (1.1f * p.speed_of_sound);
         p.speed_limit = p.speed_of_sound;

@@ -169,7 +169,7 @@ TEST_F(Collider, FrictionSlowsWhatSlides)
 {
     const auto momentum_left = [&](float friction) {
         sim::SimulationSettings settings = plate_settings(shared::KERNEL_WENDLAND, 2.0);
-        settings.params.viscosity = 100.0f; // which passes on what the plate takes
+        set_viscosity(settings.params, 100.0f); // which passes on what the plate takes
         settings.params.friction[1] = friction;
         ParticleSet set = lattice_state({6, 4, 16}, glm::vec3(0.5f, 6.1f, 0.5f) * test_spacing);
         for (glm::vec3& velocity : set.velocity) {

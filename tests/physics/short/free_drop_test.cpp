@@ -30,7 +30,7 @@ void expect_conserved(const gpu::Context& context, std::uint32_t kernel, const g
     sim::SimulationSettings settings = test_settings(kernel);
     settings.params.gravity = glm::vec3(0.0f);
     settings.params.wall_mask = 0;
-    settings.params.viscosity = 0.0f;
+    set_viscosity(settings.params, 0.0f);
     settings.params.speed_of_sound = 20.0f;
     const glm::vec3 center(0.5f);
     Random random(8);

@@ -107,7 +107,7 @@ TEST_F(ViscousDecay, SolvedForLeavesRotationAlone)
         settings.options.implicit_viscosity = implicit;
         settings.params.gravity = glm::vec3(0.0f);
         settings.params.wall_mask = 0;
-        settings.params.viscosity = 1000.0f;
+        set_viscosity(settings.params, 1000.0f);
         settings.params.dt = 1e-3f; // within the explicit bound of 1.35e-3 s
         const glm::vec3 center(0.5f);
         ParticleSet set = lattice_state(glm::uvec3(8), center - 3.5f * test_spacing);
@@ -134,7 +134,7 @@ TEST_F(ViscousDecay, FrictionIsTheSameExplicitOrSolvedFor)
         settings.options.implicit_viscosity = implicit;
         settings.params.gravity = glm::vec3(0.0f);
         settings.params.wall_mask = 0;
-        settings.params.viscosity = 1.0f; // thin: friction alone is to show
+        set_viscosity(settings.params, 1.0f); // thin: friction alone is to show
         settings.params.friction[1] = 200.0f;
         settings.params.dt = 1e-3f;
         ParticleSet set = lattice_state({8, 3, 8}, glm::vec3(0.25f, 0.36f, 0.3f));
