@@ -897,16 +897,16 @@ mutation "viscosity: the force stays where it is solved for" \
 
 # --- named liquids ------------------------------------------------------------------------------------------------------
 
-mutation "liquids: the viscosity that stands in the scene does not count" \
+mutation "liquids: what stands in the scene does not count" \
     engine/scene/scene_builder.cpp \
-    'liquid == nullptr || find("physics.viscosity") != nullptr' \
-    'liquid == nullptr' \
+    'key.name == "shape" || key.name == "liquid"' \
+    'key.name == "shape"' \
     unit_tests 'SceneFile.*Liquid*'
-mutation "liquids: the last one gives a scene of two its viscosity" \
-    engine/scene/scene_builder.cpp \
-    'liquid->viscosity != first->viscosity' \
-    'false' \
-    unit_tests 'SceneFile.LiquidsHaveOneViscosity'
+mutation "liquids: they have no viscosity of their own" \
+    engine/scene/liquids.cpp \
+    'body.viscosity = liquid.viscosity;' \
+    '' \
+    unit_tests 'SceneFile.*Liquid*'
 
 # --- the machinery ------------------------------------------------------------------------------------------------------
 

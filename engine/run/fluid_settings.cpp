@@ -59,6 +59,13 @@ double least_viscosity(const Scene& scene)
     return static_cast<double>(least);
 }
 
+/// A value that the scene bothers to set and nothing reads.
+bool has_idle_viscosity(const Scene& scene)
+{
+    return scene.physics.viscosity != FluidPhysics{}.viscosity && !scene.fluids.empty() &&
+           std::ranges::all_of(scene.fluids, [](const FluidBody& fluid) { return fluid.viscosity.has_value(); });
+}
+
 bool differ_in_viscosity(const Scene& scene)
 {
     return std::ranges::any_of(scene.fluids, [&](const FluidBody& fluid) {
@@ -295,6 +302,10 @@ FluidSettings fluid_settings(const Scene& scene, const ParticleSet& particles)
             fmt::format("physics.viscosity is {:.4g} Pa s; below about {:.2g} Pa s the paper's kernels "
                         "feed energy into this scene (kernel = \"wendland\" does not)",
                         least_viscosity(scene), calming));
+    }
+    if (has_idle_viscosity(scene)) {
+        settings.warnings.emplace_back("physics.viscosity is used by no fluid: each has one of its own, by its key "
+                                       "viscosity or its liquid");
     }
     // The CFL bound of the particles' own speed; the sound's is for the warning above.
     params.longest_move = (solved ? 0.5f : 0.4f * 0.5f) * params.support_radius;

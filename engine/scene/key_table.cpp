@@ -333,7 +333,7 @@ FluidKey liquid_key()
         words.emplace_back(liquid.name, liquid.name);
     }
     FluidKey result = choice<FluidBody>("liquid", FIELD(liquid), words,
-        "what it is: gives rest_density, color and physics.viscosity the values below, unless they stand in the scene; custom: nothing");
+        "what it is: gives rest_density, viscosity and color the values below, unless they stand in the scene; custom: nothing");
     result.set = [set = result.set](FluidBody& body, const SceneValue& value) {
         const Liquid* liquid = find_liquid(std::get<std::string>(value.data));
         if (liquid != nullptr) {

@@ -30,6 +30,7 @@ void set_liquid(FluidBody& body, const Liquid& liquid)
 {
     body.liquid = liquid.name;
     body.rest_density = liquid.rest_density;
+    body.viscosity = liquid.viscosity;
     body.color = liquid.color;
 }
 

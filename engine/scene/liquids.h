@@ -23,7 +23,7 @@ struct Liquid {
 /// The liquid of that name, null if there is none.
 [[nodiscard]] const Liquid* find_liquid(std::string_view name);
 
-/// Gives a fluid the name, the density and the color of a liquid. Viscosity is the scene's.
+/// Gives a fluid the name and the values of a liquid.
 void set_liquid(FluidBody& body, const Liquid& liquid);
 
 } // namespace meltpoint

@@ -235,25 +235,10 @@ private:
     void set_liquids()
     {
         const FluidKey& key = *find_key(fluid_keys(), "liquid");
-        const Liquid* first = nullptr;
         for (std::size_t i = 0; i < scene_.fluids.size(); ++i) {
-            const TomlEntry* entry = find(fmt::format("fluid.{}.liquid", i));
-            if (entry == nullptr) {
-                continue;
+            if (const TomlEntry* entry = find(fmt::format("fluid.{}.liquid", i))) {
+                set_value(key, scene_.fluids[i], *entry);
             }
-            set_value(key, scene_.fluids[i], *entry);
-            const Liquid* liquid = find_liquid(scene_.fluids[i].liquid);
-            if (liquid == nullptr || find("physics.viscosity") != nullptr) {
-                continue;
-            }
-            first = first == nullptr ? liquid : first;
-            if (liquid->viscosity != first->viscosity) {
-                fail(*entry,
-                     fmt::format("is \"{}\" of {:.4g} Pa s, but another fluid is {} of {:.4g} Pa s; all fluids of a "
-                                 "scene have one viscosity: set physics.viscosity to what it shall be",
-                                 liquid->name, liquid->viscosity, first->name, first->viscosity));
-            }
-            scene_.physics.viscosity = liquid->viscosity;
         }
     }
 

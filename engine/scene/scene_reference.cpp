@@ -97,7 +97,7 @@ std::string_view about(std::string_view list)
 /// What liquids there are.
 std::string liquid_rows()
 {
-    std::string text = "\n### Liquids\n\n| liquid | rest_density, kg/m^3 | physics.viscosity, Pa s | color |\n"
+    std::string text = "\n### Liquids\n\n| liquid | rest_density, kg/m^3 | viscosity, Pa s | color |\n"
                        "|---|---|---|---|\n";
     for (const Liquid& liquid : liquids()) {
         text += fmt::format("| `{}` | {} | {} | [{}, {}, {}] |\n", liquid.name, liquid.rest_density, liquid.viscosity,

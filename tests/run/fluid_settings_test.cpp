@@ -377,6 +377,12 @@ TEST(FluidSettings, FluidsHaveTheirOwnViscosityOrTheScenes)
     const double support = 0.2;
     EXPECT_NEAR(static_cast<double>(settings.simulation.params.longest_dt),
                 std::min(0.06 * 1000.0 * support * support / 40.0, 1.0 / 60.0), 1e-5);
+
+    // What nobody reads is told.
+    EXPECT_TRUE(settings.warnings.empty());
+    scene.fluids[0].viscosity = 20.0f;
+    ASSERT_EQ(settings_of(scene).warnings.size(), 1u);
+    EXPECT_NE(settings_of(scene).warnings[0].find("physics.viscosity is used by no fluid"), std::string::npos);
 }
 
 TEST(FluidSettings, MapsTheScene)

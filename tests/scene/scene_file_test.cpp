@@ -672,36 +672,28 @@ TEST(SceneFile, NamedLiquidsGiveWhatTheSceneDoesNot)
 {
     const std::string honey = std::string(BLOCK) + "liquid = \"honey\"\n";
     EXPECT_EQ(parse(honey).fluids[0].rest_density, 1400.0f);
-    EXPECT_EQ(parse(honey).physics.viscosity, 10.0f);
+    EXPECT_EQ(parse(honey).fluids[0].viscosity, 10.0f);
     EXPECT_EQ(parse(honey).fluids[0].color, find_liquid("honey")->color);
     EXPECT_EQ(parse(BLOCK).fluids[0].liquid, "custom");
     EXPECT_EQ(parse(BLOCK).fluids[0].rest_density, FluidBody{}.rest_density);
-    EXPECT_EQ(parse(BLOCK).physics.viscosity, FluidPhysics{}.viscosity);
+    EXPECT_FALSE(parse(BLOCK).fluids[0].viscosity.has_value());
 
     // What stands in the scene counts, wherever it stands, and so does an override.
-    const Scene warm = parse("[physics]\nviscosity = 3.0\n" + std::string(BLOCK) + "rest_density = 1350\nliquid = \"honey\"\n");
+    const Scene warm = parse(std::string(BLOCK) + "viscosity = 3.0\nrest_density = 1350\nliquid = \"honey\"\n");
     EXPECT_EQ(warm.fluids[0].rest_density, 1350.0f);
-    EXPECT_EQ(warm.physics.viscosity, 3.0f);
+    EXPECT_EQ(warm.fluids[0].viscosity, 3.0f);
     const Scene lava = parse(honey, {"fluid.0.liquid=lava", "fluid.0.rest_density=2500"});
     EXPECT_EQ(lava.fluids[0].rest_density, 2500.0f);
-    EXPECT_EQ(lava.physics.viscosity, 100.0f);
-    EXPECT_EQ(parse(honey, {"physics.viscosity=7"}).physics.viscosity, 7.0f);
+    EXPECT_EQ(lava.fluids[0].viscosity, 100.0f);
+    EXPECT_EQ(parse(honey, {"fluid.0.viscosity=7"}).fluids[0].viscosity, 7.0f);
+
+    // Each has its own.
+    const Scene two = parse(std::string(BLOCK) + "liquid = \"oil\"\n" + BLOCK + "liquid = \"water\"\n");
+    EXPECT_EQ(two.fluids[0].viscosity, 0.084f);
+    EXPECT_EQ(two.fluids[1].viscosity, 1.002e-3f);
 
     // Written and read again it is the same.
     EXPECT_EQ(write_scene(parse(write_scene(warm))), write_scene(warm));
-}
-
-TEST(SceneFile, LiquidsHaveOneViscosity)
-{
-    const std::string two = std::string(BLOCK) + "liquid = \"oil\"\n" + BLOCK + "liquid = \"water\"\n";
-    EXPECT_NE(complaint_of([&] { parse(two); })
-                  .find("\"fluid.1.liquid\" is \"water\" of 0.001002 Pa s, but another fluid is oil of 0.084 Pa s"),
-              std::string::npos)
-        << complaint_of([&] { parse(two); });
-    const Scene scene = parse(two, {"physics.viscosity=0.01"});
-    EXPECT_EQ(scene.fluids[0].rest_density, 912.0f);
-    EXPECT_EQ(scene.fluids[1].rest_density, 998.2f);
-    EXPECT_EQ(scene.physics.viscosity, 0.01f);
 }
 
 TEST(SceneFile, AnUnknownLiquidIsToldTheNearestOne)
