@@ -407,6 +407,11 @@ mutation "colliders: points sink through what is thin" \
     unit_tests 'SunkSamples.*'
 
 # --- several fluids ------------------------------------------------------------------------------------------------------
+mutation "several fluids: one let into another of the same lattice has a gap around it" \
+    engine/run/taken_space.cpp \
+    'return in_step ? overlapping' \
+    'return !in_step ? overlapping' \
+    unit_tests 'OverlappingFluids.*'
 mutation "several fluids: the other one's viscosity alone" \
     shaders/include/mixed_viscosity.glsl \
     'return own > 0.0 ? 2.0 * own / (own + other) : 0.0' \

@@ -67,6 +67,20 @@ std::vector<std::uint8_t> TakenSpace::find_taken(const Body& body, const std::ve
     return taken;
 }
 
+std::vector<std::uint8_t> TakenSpace::find_taken_by_fluid(const Body& body, const std::vector<glm::vec3>& points,
+                                                          const Pitch& pitch)
+{
+    const auto count = [](const std::vector<std::uint8_t>& taken) {
+        return std::ranges::count(taken, 1);
+    };
+    const float nearest = std::min(pitch.nearest, body.pitch.nearest);
+    std::vector<std::uint8_t> overlapping = find_taken(body, points, touching * nearest);
+    // Each on another's place: one lattice, of which the rest fits.
+    const bool in_step = count(find_taken(body, points, (1.0f - touching) * nearest)) == count(overlapping);
+    return in_step ? overlapping
+                   : find_taken(body, points, fluid_clearance * std::max(pitch.spacing, body.pitch.spacing));
+}
+
 void TakenSpace::clear(const std::string& name, std::vector<glm::vec3>& fluid, const Pitch& pitch,
                        std::vector<std::string>& notes) const
 {
@@ -74,9 +88,8 @@ void TakenSpace::clear(const std::string& name, std::vector<glm::vec3>& fluid, c
         std::vector<std::uint8_t> taken;
         if (!body.is_fluid) {
             taken = find_taken(body, fluid, body.clearance);
-        } else if (std::ranges::count(find_taken(body, fluid, touching * std::min(pitch.nearest, body.pitch.nearest)),
-                                      1) > 0) {
-            taken = find_taken(body, fluid, fluid_clearance * std::max(pitch.spacing, body.pitch.spacing));
+        } else {
+            taken = find_taken_by_fluid(body, fluid, pitch);
         }
         const auto count = std::count(taken.begin(), taken.end(), 1);
         if (count == 0) {

@@ -47,6 +47,11 @@ private:
     static std::vector<std::uint8_t> find_taken(const Body& body, const std::vector<glm::vec3>& points,
                                                 float clearance);
 
+    /// Likewise of a fluid: 1 where two fluids of one lattice would share a place, or, where they meet in no particular
+    /// way, where they would be too near to each other to start without pressure.
+    static std::vector<std::uint8_t> find_taken_by_fluid(const Body& body, const std::vector<glm::vec3>& points,
+                                                         const Pitch& pitch);
+
     void add(Body body);
 
     std::vector<Body> bodies_;

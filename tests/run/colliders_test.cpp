@@ -333,5 +333,16 @@ TEST(OverlappingFluids, NeighborsThatOnlyTouchAreWhole)
     EXPECT_EQ(particles.size(), 800u + 400u + 9u * 2u * 10u);
 }
 
+// A block let into a larger one of the same lattice: no row of it is lost.
+TEST(OverlappingFluids, OneLatticeHasNoGap)
+{
+    Scene scene = block_scene();
+    scene.fluids.insert(scene.fluids.begin(), block({-0.2f, 0.2f, -0.2f}, {0.2f, 0.5f, 0.2f}));
+    const auto [particles, notes, colliders] = make_scene_particles(scene, no_limit);
+    EXPECT_EQ(particles.size(), 800u);
+    EXPECT_NEAR(least_distance(particles), d, 1e-4f);
+    EXPECT_EQ(notes.size(), 1u);
+}
+
 } // namespace
 } // namespace meltpoint
