@@ -1,13 +1,11 @@
 #include "bench/measurement.h"
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
-#include <ctime>
 #include <memory>
 #include <numeric>
-#include <thread>
 
+#include "bench/clock.h"
 #include "bench/yardstick.h"
 #include "core/error.h"
 #include "core/log.h"
@@ -18,24 +16,6 @@ namespace meltpoint::bench {
 namespace {
 
 constexpr std::uint32_t most_portions = 7;
-
-std::uint32_t processors()
-{
-    return std::max(std::thread::hardware_concurrency(), 1u);
-}
-
-/// Of all threads of this program.
-double cpu_milliseconds()
-{
-    timespec time{};
-    clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &time);
-    return 1e3 * static_cast<double>(time.tv_sec) + 1e-6 * static_cast<double>(time.tv_nsec);
-}
-
-double wall_milliseconds()
-{
-    return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now().time_since_epoch()).count();
-}
 
 double median(std::vector<double> values)
 {
@@ -140,21 +120,6 @@ void require_same_motion(const ParticleSet& device, const ParticleSet& yardstick
     }
 }
 
-/// Mean of max(0, rho/rho0 - 1) over fluid.
-double mean_density_error(const ParticleSet& set, const shared::SphParams& params)
-{
-    double sum = 0.0;
-    std::size_t fluid = 0;
-    for (std::size_t i = 0; i < set.size(); ++i) {
-        if (shared::particle_state(set.attributes[i]) == shared::STATE_FLUID) {
-            const float rest_density = params.rest_density[shared::particle_material(set.attributes[i])];
-            sum += std::max(static_cast<double>(set.density[i] / rest_density) - 1.0, 0.0);
-            ++fluid;
-        }
-    }
-    return fluid > 0 ? sum / static_cast<double>(fluid) : 0.0;
-}
-
 std::unique_ptr<Yardstick> make_yardstick(const ParticleSet& state, const shared::SphParams& params,
                                           const sim::FluidOptions& options)
 {
@@ -191,6 +156,20 @@ std::unique_ptr<Yardstick> make_yardstick(const ParticleSet& state, const shared
 
 } // namespace
 
+double mean_density_error(const ParticleSet& set, const shared::SphParams& params)
+{
+    double sum = 0.0;
+    std::size_t fluid = 0;
+    for (std::size_t i = 0; i < set.size(); ++i) {
+        if (shared::particle_state(set.attributes[i]) == shared::STATE_FLUID) {
+            const float rest_density = params.rest_density[shared::particle_material(set.attributes[i])];
+            sum += std::max(static_cast<double>(set.density[i] / rest_density) - 1.0, 0.0);
+            ++fluid;
+        }
+    }
+    return fluid > 0 ? sum / static_cast<double>(fluid) : 0.0;
+}
+
 std::vector<Result> measure(const gpu::Context& context, const ParticleSet& initial,
                             const sim::SimulationSettings& settings, const Plan& plan)
 {
@@ -213,8 +192,9 @@ std::vector<Result> measure(const gpu::Context& context, const ParticleSet& init
     const std::unique_ptr<Yardstick> yardstick =
         plan.own_steps ? nullptr : make_yardstick(warm, params, settings.options);
 
-    const bool software = context.info().software();
-    const double share = 1.0 / processors();
+    const auto device_clock = [&] {
+        return device_milliseconds(context.info());
+    };
     std::vector<std::vector<double>> times(simulations.size());
     std::vector<double> yardstick_times;
     std::vector<double> started_at;
@@ -227,14 +207,13 @@ std::vector<Result> measure(const gpu::Context& context, const ParticleSet& init
             const auto advance = [&](std::uint32_t count) {
                 simulations[i]->advance(count);
             };
-            times[i].push_back(software ? share * milliseconds_a_step(cpu_milliseconds, steps, advance)
-                                        : milliseconds_a_step(wall_milliseconds, steps, advance));
+            times[i].push_back(milliseconds_a_step(device_clock, steps, advance));
         }
         if (yardstick) {
             const auto advance = [&](std::uint32_t count) {
                 yardstick->advance(count);
             };
-            yardstick_times.push_back(share * milliseconds_a_step(cpu_milliseconds, steps, advance));
+            yardstick_times.push_back(milliseconds_a_step(processor_milliseconds, steps, advance));
         }
     }
     if (yardstick) {
@@ -259,7 +238,7 @@ std::vector<Result> measure(const gpu::Context& context, const ParticleSet& init
             result.yardstick_step_ms = median(yardstick_times);
         }
         result.passes = pass_times(*simulations[i], std::min(plan.steps, most_portions));
-        if (software) {
+        if (context.info().software()) {
             scale_to(result.passes, result.step_ms);
         }
         results.push_back(std::move(result));

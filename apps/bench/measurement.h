@@ -44,11 +44,13 @@ struct Result {
     }
 };
 
+/// Mean of max(0, rho/rho0 - 1) over fluid.
+[[nodiscard]] double mean_density_error(const ParticleSet& set, const shared::SphParams& params);
+
 /// Runs the warm-up, then the simulations with each tile size and the yardstick in turns, each a portion of the steps,
 /// and takes medians over the portions.
 ///
-/// Milliseconds on software devices and of the yardstick are CPU time over the number of processors: what the wall
-/// clock shows when nothing else runs, and what a busy neighbor changes less. On GPUs they are wall time. The times
+/// Milliseconds are those of bench/clock.h, of the yardstick CPU time. The times
 /// of the passes come from the device's timestamps, of more steps after the measured ones; on software devices they are
 /// scaled to add up to the step.
 ///

@@ -16,6 +16,7 @@ void add_compare(CLI::App& app, const GlobalOptions& global, int& exit_code);
 void add_follow(CLI::App& app, const GlobalOptions& global, int& exit_code);
 void add_bench(CLI::App& app, const GlobalOptions& global, int& exit_code);
 void add_report(CLI::App& app, const GlobalOptions& global, int& exit_code);
+void add_validate(CLI::App& app, const GlobalOptions& global, int& exit_code);
 void add_info(CLI::App& app, const GlobalOptions& global, int& exit_code);
 
 } // namespace meltpoint::program

@@ -59,6 +59,7 @@ int run(int argc, char** argv)
     program::add_follow(app, global, exit_code);
     program::add_bench(app, global, exit_code);
     program::add_report(app, global, exit_code);
+    program::add_validate(app, global, exit_code);
     program::add_info(app, global, exit_code);
     for (CLI::App* subcommand : subcommands_of(app)) {
         refuse_empty_values(*subcommand);

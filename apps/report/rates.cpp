@@ -9,8 +9,8 @@
 #include "bench/measurement.h"
 #include "core/log.h"
 #include "io/atomic_file.h"
+#include "plot/line_plot.h"
 #include "report/document.h"
-#include "report/line_plot.h"
 #include "report/sections.h"
 #include "run/fluid_settings.h"
 #include "run/scene_particles.h"
@@ -93,9 +93,9 @@ std::string make_dam(const Workplace& workplace)
                                             {"benchmark_dam_40", 64000, 50.6},
                                             {"benchmark_dam_50", 125000, 101.0}}};
     std::vector<Row> rows;
-    Curve ours{"Meltpoint", {}};
-    Curve loop{"C++ loop", {}};
-    Curve theirs{"SPlisHSPlasH", {}};
+    plot::Curve ours{"Meltpoint", {}};
+    plot::Curve loop{"C++ loop", {}};
+    plot::Curve theirs{"SPlisHSPlasH", {}};
     for (const Peer& peer : peers) {
         const bench::Result result = measure_scene(workplace, builtin_scene(peer.scene));
         const double peer_rate = peer.particles / peer.wcsph_ms * 1e3;
@@ -112,11 +112,11 @@ std::string make_dam(const Workplace& workplace)
             loop.points.emplace_back(result.particles, *loop_rate);
         }
     }
-    const LinePlot plot{.title = "Benchmark dam, WCSPH",
-                        .x_label = "particles",
-                        .y_label = "particle-steps a second",
-                        .curves = {ours, loop, theirs}};
-    const std::string svg = to_svg(plot);
+    const plot::LinePlot rates{.title = "Benchmark dam, WCSPH",
+                               .x_label = "particles",
+                               .y_label = "particle-steps a second",
+                               .curves = {ours, loop, theirs}};
+    const std::string svg = to_svg(rates);
     write_file_atomically(workplace.folder / "benchmark_dam.svg", std::as_bytes(std::span(svg)));
     return table({"scene", "particles", "neighbors", "ms a step", "M particle-steps/s", "plain C++ loop",
                   "SPlisHSPlasH", "ratio to it"},

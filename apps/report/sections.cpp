@@ -161,8 +161,11 @@ std::span<const SectionMaker> section_makers()
          make_conformance},
         {"splats", "Splats against a ray cast", "a sphere of splats against the true sphere", make_splats},
         {"sampling", "Sampling", "how long meshes take to sample", make_sampling},
+        {"validation", "Physics against exact solutions and experiments", "all cases of meltpoint validate, with plots",
+         make_validation},
         {"table1", "The source paper's table 1", "steps a second beside the paper's", make_table1},
         {"dam", "The benchmark dam", "particle-steps a second beside other code, with a plot", make_dam},
+        {"solvers", "Solvers", "simulated seconds a second, at equal density errors", make_solvers},
         {"block", "The benchmark's block", "tile sizes beside a plain C++ loop", make_block},
     };
     return makers;

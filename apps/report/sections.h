@@ -8,6 +8,7 @@
 #include <string_view>
 
 #include "gpu/context.h"
+#include "validation/case.h"
 
 namespace meltpoint::report {
 
@@ -21,7 +22,7 @@ struct Workplace {
 };
 
 /// A section that was not finished because Workplace::stop was set.
-struct Interrupted {};
+using Interrupted = validation::Interrupted;
 
 /// Throws Interrupted when the workplace's stop is set.
 void check_stop(const Workplace& workplace);
@@ -46,8 +47,10 @@ std::string make_figures(const Workplace& workplace);     ///< the source paper'
 std::string make_conformance(const Workplace& workplace); ///< every pass against its twin
 std::string make_splats(const Workplace& workplace);      ///< splats against a ray cast
 std::string make_sampling(const Workplace& workplace);    ///< seconds to sample
+std::string make_validation(const Workplace& workplace);  ///< flows of which the truth is known, with plots
 std::string make_table1(const Workplace& workplace);      ///< steps a second on the source paper's table 1
 std::string make_dam(const Workplace& workplace);         ///< the benchmark dam, with a plot
+std::string make_solvers(const Workplace& workplace);     ///< solvers over the same simulated time
 std::string make_block(const Workplace& workplace);       ///< tiles and yardstick on the benchmark's block
 
 } // namespace meltpoint::report

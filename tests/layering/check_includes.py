@@ -29,10 +29,12 @@ STANDS_ON = {
     "engine/run": ["engine/scene", "engine/io", "engine/sim", "engine/render"],
     "apps/conformance": ["engine/sim", "engine/render", "engine/reference"],
     "apps/bench": ["engine/sim", "engine/scene"],
-    "apps/report": ["engine/run", "apps/bench", "apps/conformance"],
+    "apps/plot": ["engine/core"],
+    "apps/validation": ["engine/run", "apps/plot"],
+    "apps/report": ["engine/run", "apps/bench", "apps/conformance", "apps/validation"],
     "apps/meltpoint": ["engine/run"],
     "apps/viewer": ["engine/run"],
-    "tests": ["engine/run", "engine/reference", "apps/conformance", "apps/bench", "apps/report"],
+    "tests": ["engine/run", "engine/reference", "apps/conformance", "apps/bench", "apps/report", "apps/validation"],
     "shaders/shared": [],
     "shaders/include": ["shaders/shared"],
     "shaders/primitives": ["shaders/include"],
@@ -47,6 +49,7 @@ DISPATCHING = ["engine/primitives", "engine/sim", "engine/render"]
 EXTRA = {
     "apps/meltpoint/bench.cpp": ["apps/bench"],
     "apps/meltpoint/report.cpp": ["apps/report"],
+    "apps/meltpoint/validate.cpp": ["apps/validation"],
     "apps/meltpoint/compare.cpp": ["apps/conformance", "engine/reference"],
     "apps/meltpoint/follow.cpp": ["apps/conformance"],
 }

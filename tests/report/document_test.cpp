@@ -1,11 +1,11 @@
 // The report's Markdown: sections of a document and tables.
 #include <algorithm>
+#include <iterator>
 
 #include <gtest/gtest.h>
 
 #include "core/error.h"
 #include "report/document.h"
-#include "report/line_plot.h"
 #include "report/sections.h"
 #include "support/scratch_folder.h"
 
@@ -77,10 +77,13 @@ TEST(ReportDocument, TablesAreMarkdown)
     EXPECT_EQ(report::table({"a", "b"}, rows), "| a | b |\n| --- | --- |\n| 1 | 2 |\n| 3 | 4 |\n");
 }
 
-TEST(ReportDocument, TheReadmeHasEverySectionOnce)
+TEST(ReportDocument, ThePagesHaveEverySectionOnce)
 {
-    const std::string path = MELTPOINT_SOURCE_DIR "/README.md";
-    std::vector<std::string> found = report::section_names(test::read_bytes(path), path);
+    std::vector<std::string> found;
+    for (const std::string page : {"/README.md", "/apps/validation/README.md"}) {
+        const std::string path = MELTPOINT_SOURCE_DIR + page;
+        std::ranges::copy(report::section_names(test::read_bytes(path), path), std::back_inserter(found));
+    }
     std::vector<std::string> expected;
     for (const report::SectionMaker& maker : report::section_makers()) {
         expected.emplace_back(maker.name);
@@ -88,43 +91,6 @@ TEST(ReportDocument, TheReadmeHasEverySectionOnce)
     std::ranges::sort(found);
     std::ranges::sort(expected);
     EXPECT_EQ(found, expected);
-}
-
-/// The y of the first curve's dots.
-std::vector<double> heights(const std::string& svg)
-{
-    std::vector<double> found;
-    for (std::size_t at = svg.find("cy=\""); at != std::string::npos; at = svg.find("cy=\"", at + 1)) {
-        found.push_back(std::stod(svg.substr(at + 4)));
-    }
-    return found;
-}
-
-TEST(LinePlot, EqualRatiosAreEqualLengths)
-{
-    const report::LinePlot plot{"t", "x", "y", {{"a & b", {{10.0, 1.0}, {100.0, 10.0}, {1000.0, 100.0}}}}};
-    const std::string svg = report::to_svg(plot);
-    const std::vector<double> y = heights(svg);
-    ASSERT_EQ(y.size(), 3u);
-    EXPECT_GT(y[0], y[1]); // pictures count down from the top
-    EXPECT_NEAR(y[0] - y[1], y[1] - y[2], 0.2);
-    EXPECT_NE(svg.find("a &amp; b"), std::string::npos);
-    EXPECT_EQ(svg.find("a & b"), std::string::npos);
-}
-
-TEST(LinePlot, StaysWithinItsFrame)
-{
-    const report::LinePlot plot{"t", "x", "y", {{"a", {{7.9e3, 0.93}, {1.25e5, 2.1e7}}}}};
-    for (const double y : heights(report::to_svg(plot))) {
-        EXPECT_GE(y, 48.0);
-        EXPECT_LE(y, 364.0);
-    }
-}
-
-TEST(LinePlot, WhatHasNoLogarithmIsRefused)
-{
-    EXPECT_THROW(static_cast<void>(report::to_svg({"t", "x", "y", {{"a", {{1.0, 0.0}}}}})), Error);
-    EXPECT_THROW(static_cast<void>(report::to_svg({"t", "x", "y", {}})), Error);
 }
 
 } // namespace

@@ -1,5 +1,5 @@
 // Forces of fluid on colliders.
-#include "physics/buoyancy.h"
+#include "validation/buoyancy.h"
 #include "support/fluid_box.h"
 
 namespace meltpoint {
@@ -11,7 +11,7 @@ class ColliderForces : public GpuTest {};
 TEST_F(ColliderForces, ABallUnderWaterIsLifted)
 {
     for (const Solver solver : {Solver::Wcsph, Solver::Dfsph}) {
-        const Buoyancy ball = measure_buoyancy(context(), solver, 2.0, 4.0f);
+        const validation::Buoyancy ball = validation::measure_buoyancy(context(), solver, 2.0, 4.0f);
         SCOPED_TRACE(ball.measured / ball.exact);
         EXPECT_NEAR(ball.measured / ball.exact, 1.0, 0.05);
         EXPECT_LE(ball.sideways, 0.03 * ball.exact);

@@ -1,31 +1,18 @@
-#pragma once
+#include "validation/buoyancy.h"
 
 #include <algorithm>
 #include <cmath>
 #include <numbers>
 
+#include <fmt/format.h>
+
 #include "run/collider_forces.h"
-#include "run/fluid_settings.h"
-#include "run/scene_particles.h"
-#include "support/gpu_test.h"
+#include "validation/scene_run.h"
 
-namespace meltpoint {
+namespace meltpoint::validation {
 
-/// A ball held under still water in a box, and what it weighs less than in the air.
-struct Buoyancy {
-    double measured = 0.0; ///< N, upward, mean over the last time
-    double sideways = 0.0; ///< N, the largest of the other two components
-    double torque = 0.0;   ///< N m
-    double exact = 0.0;    ///< rho g V, N
-};
-
-/// radius: of the ball, in spacings. Blue noise, for a lattice at rest bears shear: it held up 10 % of a ball's lift.
-///
-/// First the water gets 0.3 s to close up around the ball. Then it is left swinging about its compressed state in a
-/// standing wave of sound whose length is 4 h: after h/c0 it passes through rest position, and velocities taken away
-/// there leave little. After some rounds of that, the mean over two periods counts.
-inline Buoyancy measure_buoyancy(const gpu::Context& context, Solver solver, double support_ratio, float radius,
-                                 double measured_periods = 2.0)
+Buoyancy measure_buoyancy(const gpu::Context& context, Solver solver, double support_ratio, float radius,
+                          double measured_periods)
 {
     constexpr int rounds = 6;
     constexpr float d = 0.05f;
@@ -67,4 +54,35 @@ inline Buoyancy measure_buoyancy(const gpu::Context& context, Solver solver, dou
             .exact = 1000.0 * 9.81 * 4.0 / 3.0 * std::numbers::pi * std::pow(static_cast<double>(radius * d), 3)};
 }
 
-} // namespace meltpoint
+Outcome run_buoyancy(const Host& host)
+{
+    Outcome outcome;
+    plot::LinePlot plot{.title = "Lift of a ball under water, in parts of Archimedes'",
+                        .x_label = "radius / spacing",
+                        .y_label = "measured / exact",
+                        .curves = {},
+                        .scale = plot::Scale::Linear};
+    for (const Solver solver : {Solver::Wcsph, Solver::Dfsph}) {
+        for (const double support_ratio : {2.0, 3.0}) {
+            const std::string name = fmt::format("{}, H = {:g} d", solver_name(solver), support_ratio);
+            plot::Curve curve{name, {}};
+            for (const float radius : {4.0f, 8.0f}) {
+                check_stop(host);
+                const Buoyancy ball = measure_buoyancy(host.context, solver, support_ratio, radius);
+                const double lift = ball.measured / ball.exact;
+                const double error = radius < 5.0f ? 0.05 : 0.03;
+                const std::string what = fmt::format("{}, radius {:g} d: ", name, radius);
+                outcome.measurements.push_back(
+                    within(what + "lift, in parts of rho g V", lift, 1.0 - error, 1.0 + error));
+                outcome.measurements.push_back(
+                    at_most(what + "force sideways, in the same parts", ball.sideways / ball.exact, 0.03));
+                curve.points.emplace_back(radius, lift);
+            }
+            plot.curves.push_back(curve);
+        }
+    }
+    outcome.figures.push_back({"buoyancy.svg", plot});
+    return outcome;
+}
+
+} // namespace meltpoint::validation

@@ -1,4 +1,4 @@
-#include "report/line_plot.h"
+#include "plot/line_plot.h"
 
 #include <algorithm>
 #include <array>
@@ -9,7 +9,7 @@
 
 #include "core/error.h"
 
-namespace meltpoint::report {
+namespace meltpoint::plot {
 
 namespace {
 
@@ -19,34 +19,63 @@ constexpr double left = 72.0; // of the frame within the picture
 constexpr double right = width - 150.0;
 constexpr double top = 48.0;
 constexpr double bottom = height - 56.0;
+constexpr std::size_t most_dots = 20; // of a line; more would hide it
 constexpr std::array<const char*, 6> colors = {"#1f6fb4", "#c8552b", "#2f8f5b", "#8a5fb0", "#9a7b1f", "#5b6570"};
 
-/// A logarithmic axis over whole and half decades: 1, 2, 5, 10, ...
-class Axis {
-public:
-    Axis(double smallest, double largest, double begin, double end) : begin_(begin), end_(end)
-    {
-        for (double decade = std::pow(10.0, std::floor(std::log10(smallest)));; decade *= 10.0) {
-            for (const double digit : {1.0, 2.0, 5.0}) {
-                const double tick = digit * decade;
-                if (!ticks_.empty() && tick <= smallest * (1.0 + 1e-9)) {
-                    ticks_.clear(); // the axis begins at the last tick below the data
-                }
-                ticks_.push_back(tick);
-                if (tick >= largest && ticks_.size() > 1) {
-                    return;
-                }
+/// 1, 2, 5, 10, ...: from the last below the smallest to the first above the largest.
+std::vector<double> logarithmic_ticks(double smallest, double largest)
+{
+    std::vector<double> ticks;
+    for (double decade = std::pow(10.0, std::floor(std::log10(smallest)));; decade *= 10.0) {
+        for (const double digit : {1.0, 2.0, 5.0}) {
+            const double tick = digit * decade;
+            if (!ticks.empty() && tick <= smallest * (1.0 + 1e-9)) {
+                ticks.clear();
+            }
+            ticks.push_back(tick);
+            if (tick >= largest && ticks.size() > 1) {
+                return ticks;
             }
         }
+    }
+}
+
+/// Four to ten multiples of 1, 2 or 5 times a power of ten, likewise.
+std::vector<double> linear_ticks(double smallest, double largest)
+{
+    const double span = largest > smallest ? largest - smallest : std::max(std::abs(largest), 1.0);
+    const double decade = std::pow(10.0, std::floor(std::log10(span)));
+    const double step = decade * (span > 5.0 * decade ? 1.0 : span > 2.0 * decade ? 0.5 : 0.2);
+    const double first = std::floor(smallest / step + 1e-9);
+    const double last = std::max(std::ceil(largest / step - 1e-9), first + 1.0);
+    std::vector<double> ticks;
+    for (double k = first; k <= last; k += 1.0) {
+        ticks.push_back(k * step);
+    }
+    return ticks;
+}
+
+class Axis {
+public:
+    Axis(Scale scale, double smallest, double largest, double begin, double end)
+        : scale_(scale),
+          ticks_(scale == Scale::Linear ? linear_ticks(smallest, largest) : logarithmic_ticks(smallest, largest)),
+          begin_(begin), end_(end)
+    {
     }
 
     [[nodiscard]] const std::vector<double>& ticks() const { return ticks_; }
     [[nodiscard]] double place(double value) const
     {
-        return begin_ + (end_ - begin_) * std::log(value / ticks_.front()) / std::log(ticks_.back() / ticks_.front());
+        const auto along = [&](double x) {
+            return scale_ == Scale::Linear ? x : std::log(x);
+        };
+        const double first = along(ticks_.front());
+        return begin_ + (end_ - begin_) * (along(value) - first) / (along(ticks_.back()) - first);
     }
 
 private:
+    Scale scale_;
     std::vector<double> ticks_;
     double begin_;
     double end_;
@@ -88,7 +117,7 @@ std::string text_at(double x, double y, const char* anchor, const std::string& t
 
 struct Extent {
     double min = std::numeric_limits<double>::infinity();
-    double max = 0.0;
+    double max = -std::numeric_limits<double>::infinity();
     void include(double value)
     {
         min = std::min(min, value);
@@ -119,18 +148,21 @@ std::string to_svg(const LinePlot& plot)
     Extent y_extent;
     for (const Curve& curve : plot.curves) {
         for (const auto& [x, y] : curve.points) {
-            if (!(x > 0.0 && y > 0.0) || !std::isfinite(x) || !std::isfinite(y)) {
+            if (!std::isfinite(x) || !std::isfinite(y)) {
+                throw input_error("{}: the point ({}, {}) of {} is not finite", plot.title, x, y, curve.name);
+            }
+            if (plot.scale == Scale::Logarithmic && !(x > 0.0 && y > 0.0)) {
                 throw input_error("{}: the point ({}, {}) of {} has no logarithm", plot.title, x, y, curve.name);
             }
             x_extent.include(x);
             y_extent.include(y);
         }
     }
-    if (!(x_extent.max > 0.0)) {
+    if (x_extent.min > x_extent.max) {
         throw input_error("{}: there is nothing to plot", plot.title);
     }
-    const Axis x_axis(x_extent.min, x_extent.max, left, right);
-    const Axis y_axis(y_extent.min, y_extent.max, bottom, top);
+    const Axis x_axis(plot.scale, x_extent.min, x_extent.max, left, right);
+    const Axis y_axis(plot.scale, y_extent.min, y_extent.max, bottom, top);
 
     std::string svg = fmt::format(
         "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 {0} {1}\" width=\"{0}\" height=\"{1}\" "
@@ -172,11 +204,14 @@ std::string to_svg(const LinePlot& plot)
             line += fmt::format("{}{:.1f} {:.1f}", line.empty() ? "M" : "L", px, py);
             dots += fmt::format("<circle cx=\"{:.1f}\" cy=\"{:.1f}\" r=\"3.5\"/>\n", px, py);
         }
-        svg += fmt::format("<g fill=\"{0}\"><path d=\"{1}\" fill=\"none\" stroke=\"{0}\" stroke-width=\"2\"/>\n{2}",
-                           color, line, dots);
+        svg += fmt::format("<g fill=\"{}\">\n", color);
+        if (curve.joined) {
+            svg += fmt::format("<path d=\"{}\" fill=\"none\" stroke=\"{}\" stroke-width=\"2\"/>\n", line, color);
+        }
+        svg += curve.joined && curve.points.size() > most_dots ? "" : dots;
         svg += text_at(right + 10.0, label_heights[c], "start", curve.name) + "</g>\n";
     }
     return svg + "</svg>\n";
 }
 
-} // namespace meltpoint::report
+} // namespace meltpoint::plot
