@@ -43,18 +43,18 @@ Run run_wcsph(const Workplace& workplace, double speed_of_sound)
                {"solver=wcsph", fmt::format("physics.speed_of_sound={}", speed_of_sound)});
 }
 
-/// wcsph with the speed of sound at which it is compressed as `other` is. Compression goes with about 1/c0^2: a power
-/// law through the last two runs finds it.
+/// wcsph with the speed of sound at which it is compressed as `other` is, or with the scene's where that is enough.
+/// Compression goes with about 1/c0^2: a power law through the last two runs finds it.
 Run run_wcsph_as(const Workplace& workplace, const Run& other)
 {
     constexpr int most_runs = 4;
     constexpr double close_enough = 0.1;
-    double speed = 20.0; // m/s
+    double speed = static_cast<double>(builtin_scene(scene_name).physics.speed_of_sound.value());
     double exponent = -2.0;
     Run last = run_wcsph(workplace, speed);
     for (int i = 1; i < most_runs; ++i) {
         const double wanted = other.pace.density_error / last.pace.density_error;
-        if (std::abs(wanted - 1.0) < close_enough) {
+        if (std::abs(wanted - 1.0) < close_enough || (i == 1 && wanted > 1.0)) {
             break;
         }
         const double next_speed = speed * std::pow(wanted, 1.0 / exponent);
