@@ -1,4 +1,6 @@
 #include <algorithm>
+#include <cmath>
+#include <cstdio>
 #include <filesystem>
 #include <memory>
 #include <span>
@@ -62,6 +64,7 @@ void print_outcome(const validation::Case& one, const validation::Outcome& outco
         fmt::print("  {:<70}{:>12.4g}  {}{}\n", measurement.quantity, measurement.value, measurement.range(),
                    measurement.holds() ? "" : "  OUT OF RANGE");
     }
+    std::fflush(stdout); // the next case takes minutes
 }
 
 nlohmann::ordered_json to_json(const validation::Case& one, const validation::Outcome& outcome)

@@ -154,20 +154,25 @@ std::string make_sampling(const Workplace& workplace)
 
 std::span<const SectionMaker> section_makers()
 {
-    static const std::vector<SectionMaker> makers = {
-        {"gallery", "Pictures", "frames of teapot_drop and dam_break", make_gallery},
-        {"figures", "The source paper's figures", "figures 1 to 6 of the source paper", make_figures},
-        {"conformance", "GPU against the CPU reference", "every pass against its twin in double precision",
-         make_conformance},
-        {"splats", "Splats against a ray cast", "a sphere of splats against the true sphere", make_splats},
-        {"sampling", "Sampling", "how long meshes take to sample", make_sampling},
-        {"validation", "Physics against exact solutions and experiments", "all cases of meltpoint validate, with plots",
-         make_validation},
-        {"table1", "The source paper's table 1", "steps a second beside the paper's", make_table1},
-        {"dam", "The benchmark dam", "particle-steps a second beside other code, with a plot", make_dam},
-        {"solvers", "Solvers", "simulated seconds a second, at equal density errors", make_solvers},
-        {"block", "The benchmark's block", "tile sizes beside a plain C++ loop", make_block},
-    };
+    static const std::vector<SectionMaker> makers = [] {
+        std::vector<SectionMaker> all = {
+            {"gallery", "Pictures", "frames of teapot_drop and dam_break", make_gallery},
+            {"figures", "The source paper's figures", "figures 1 to 6 of the source paper", make_figures},
+            {"conformance", "GPU against the CPU reference", "every pass against its twin in double precision",
+             make_conformance},
+            {"splats", "Splats against a ray cast", "a sphere of splats against the true sphere", make_splats},
+            {"sampling", "Sampling", "how long meshes take to sample", make_sampling},
+            {"table1", "The source paper's table 1", "steps a second beside the paper's", make_table1},
+            {"dam", "The benchmark dam", "particle-steps a second beside other code, with a plot", make_dam},
+            {"solvers", "Solvers", "simulated seconds a second, at equal density errors", make_solvers},
+            {"block", "The benchmark's block", "tile sizes beside a plain C++ loop", make_block},
+        };
+        for (const validation::Case& one : validation::cases()) {
+            all.push_back({one.name, one.title, "a case of meltpoint validate",
+                           [&one](const Workplace& workplace) { return make_validation(workplace, one); }});
+        }
+        return all;
+    }();
     return makers;
 }
 

@@ -47,10 +47,12 @@ std::string make_figures(const Workplace& workplace);     ///< the source paper'
 std::string make_conformance(const Workplace& workplace); ///< every pass against its twin
 std::string make_splats(const Workplace& workplace);      ///< splats against a ray cast
 std::string make_sampling(const Workplace& workplace);    ///< seconds to sample
-std::string make_validation(const Workplace& workplace);  ///< flows of which the truth is known, with plots
 std::string make_table1(const Workplace& workplace);      ///< steps a second on the source paper's table 1
 std::string make_dam(const Workplace& workplace);         ///< the benchmark dam, with a plot
 std::string make_solvers(const Workplace& workplace);     ///< solvers over the same simulated time
 std::string make_block(const Workplace& workplace);       ///< tiles and yardstick on the benchmark's block
+
+/// A flow of which the truth is known, with its plots. Throws Runtime when it is out of its ranges.
+std::string make_validation(const Workplace& workplace, const validation::Case& one);
 
 } // namespace meltpoint::report

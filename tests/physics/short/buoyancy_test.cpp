@@ -1,6 +1,11 @@
 // Forces of fluid on colliders.
-#include "validation/buoyancy.h"
+#include <algorithm>
+#include <cmath>
+
+#include "run/collider_forces.h"
 #include "support/fluid_box.h"
+#include "support/gpu_test.h"
+#include "validation/buoyancy.h"
 
 namespace meltpoint {
 namespace {
