@@ -533,7 +533,7 @@ mutation "vorticity: mirrors do not turn it" \
     shaders/sim/vorticity.comp \
     'float turn = signs.x * signs.y * signs.z' \
     'float turn = 1.0' \
-    conformance_tests '*PassConformance.XsphAndConfinement/InTheCorners*'
+    conformance_tests '*PassConformance.XsphAndConfinement/Splash*'
 mutation "confinement: it slows vortices down" \
     shaders/sim/confinement.comp \
     'cross(n, vorticity[i].xyz)' \

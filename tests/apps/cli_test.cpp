@@ -128,7 +128,7 @@ TEST_F(Cli, WrongUsageExitsWithTwo)
     }
     expect_one_sentence(
         run({"nonsense"}), 2,
-        "there is no subcommand \"nonsense\"; there are render, sample, compare, follow, bench, report, info");
+        "there is no subcommand \"nonsense\"; there are render, sample, compare, follow, bench, report, validate, info");
     EXPECT_TRUE(files(".").empty());
 }
 
