@@ -101,6 +101,89 @@ mutation "sort: keys out of range are counted" \
     '' \
     conformance_tests 'CountingSortTest.ElementsBeyond*'
 
+# --- two dimensions, periodic axes, shifting ----------------------------------------------------------------------------
+
+mutation "plane: the kernel's gradient is 20 % too steep" \
+    engine/particles/sph_kernel.cpp \
+    '.gradient = 140.0 / (PI * h3)' \
+    '.gradient = 168.0 / (PI * h3)' \
+    unit_tests '*PlaneKernel.*'
+mutation "plane: the Laplacian of space" \
+    shaders/include/sph_kernel.glsl \
+    '? 3.0 - 7.0 * q2 : 1.0 - 3.0 * q2' \
+    '? 3.0 - 7.0 * q2 : 3.0 - 7.0 * q2' \
+    conformance_tests 'Plane.PassesAreTheTwins'
+mutation "plane: walls rub like those of space" \
+    shaders/include/walls.glsl \
+    'if (DIMENSIONS == 2u)' \
+    'if (DIMENSIONS == 1u)' \
+    conformance_tests 'Plane.WallViscosityAloneIsTheTwins'
+mutation "plane: volumes are cubes" \
+    engine/particles/sph_kernel.cpp \
+    'std::pow(spacing, dimensions)' \
+    'std::pow(spacing, 3)' \
+    unit_tests '*PlaneKernel.SetKernelScales*'
+mutation "plane: the lattice's moments are those of space" \
+    engine/particles/sph_kernel.cpp \
+    'const int reach_z = dimensions == 3 ? reach : 0;' \
+    'const int reach_z = reach;' \
+    conformance_tests 'Plane.LatticeIsAtRestDensity'
+mutation "plane: a disk is filled 5 % too densely" \
+    engine/geometry/plane_sampling.cpp \
+    'static_cast<double>(sites.size()) * d * d / area - 1.0' \
+    'static_cast<double>(sites.size()) * d * d / area - 1.02' \
+    unit_tests 'PlaneSampling.DisksHoldTheirArea'
+mutation "periodic: what leaves stays outside" \
+    shaders/include/periodic.glsl \
+    'return x + mix' \
+    'return x; return x + mix' \
+    conformance_tests 'Periodic.*'
+mutation "periodic: images are reflected" \
+    shaders/include/image_walk.glsl \
+    'image_axes(image)), vec3(1.0), periodic_axes());' \
+    'image_axes(image)), vec3(1.0), bvec3(false));' \
+    conformance_tests 'Periodic.PassesAreTheTwins'
+mutation "periodic: images lie where mirrors would have them" \
+    shaders/include/image_walk.glsl \
+    'mix(reflected, shifted, periodic_axes())' \
+    'reflected' \
+    conformance_tests 'Periodic.PassesAreTheTwins:Periodic.MomentumCrossesTheBorder'
+mutation "periodic: neighbors are counted on this side alone" \
+    shaders/sim/count_neighbors.comp \
+    'images |= periodic.x' \
+    'images |= 0u * periodic.x' \
+    conformance_tests 'Periodic.PassesAreTheTwins'
+mutation "periodic: colliders end at the border" \
+    engine/run/scene_colliders.cpp \
+    'x[axis] -= length * std::floor' \
+    'x[axis] -= 0.0f * length * std::floor' \
+    unit_tests 'PeriodicScene.*'
+mutation "periodic: fluid starts in what comes in from the other side" \
+    engine/run/taken_space.cpp \
+    'if (period[axis] > 0.0f)' \
+    'if (period[axis] < 0.0f)' \
+    unit_tests 'PeriodicScene.*'
+mutation "shifting: towards where there are more" \
+    shaders/sim/shift.comp \
+    'wrapped(own[k].xyz + shift)' \
+    'wrapped(own[k].xyz - shift)' \
+    conformance_tests 'Plane.PassesAreTheTwins'
+mutation "shifting: without a cap" \
+    shaders/sim/shift.comp \
+    'distance > longest ? longest / distance : 1.0' \
+    '1.0' \
+    conformance_tests 'Plane.ShiftsAreCapped'
+mutation "lid: it drags the wrong way" \
+    shaders/include/image_walk.glsl \
+    'half_spaces.y * params.lid_velocity' \
+    '-half_spaces.y * params.lid_velocity' \
+    conformance_tests 'Plane.WallViscosityAloneIsTheTwins'
+mutation "lid: not where viscosity is solved for" \
+    shaders/include/viscous_walk.glsl \
+    'if (VISCOUS_BLOCKS) { // the matrix' \
+    'if (false) { // the matrix' \
+    physics_short_tests 'ShortPlaneFlows.PoiseuilleAndCouette*'
+
 # --- barriers, that software devices do not need: synchronization validation must see them missing ----------------------
 
 mutation "barrier: none between a write and a read" \
@@ -196,8 +279,8 @@ mutation "neighbors: the last rows of cells are not searched" \
     conformance_tests '*PassConformance.AllPasses/Random*'
 mutation "neighbors: particles of a wide tile walk together with all" \
     shaders/include/image_walk.glsl \
-    'tile.walks == TOGETHER || tile.walks == int(k) ? x[k] : NOWHERE' \
-    'x[k]' \
+    'tile.walks == TOGETHER || tile.walks == int(k);' \
+    'true;' \
     conformance_tests '*PassConformance.EveryTileSize/SprayAboveAFloor*'
 mutation "neighbors: of a wide tile the last particle does not walk" \
     shaders/include/image_walk.glsl \
@@ -284,12 +367,12 @@ mutation "colliders: a tile with one of them has no density" \
     conformance_tests '*PassConformance.AllPasses/OnACollider*'
 mutation "colliders: a layer has no weight, and leaks" \
     shaders/sim/boundary_weight.comp \
-    '? 1.0 / (d3' \
-    '? 0.1 / (d3' \
+    '? 1.0 / (params.lattice_volume' \
+    '? 0.1 / (params.lattice_volume' \
     physics_short_tests 'Collider.APlateOneParticleThickDoesNotLeak'
 mutation "scenes: fluid starts where other fluid is" \
     engine/run/taken_space.cpp \
-    'inside || is_near_a_point(points[i])' \
+    'inside || is_near_a_point(x)' \
     'inside' \
     unit_tests 'OverlappingFluids.*'
 mutation "scenes: colliders are hollow" \
@@ -338,9 +421,9 @@ mutation "walls: the force of an image is not reflected back" \
     'force[k] += image_force[k]' \
     conformance_tests '*PassConformance.AllPasses/LatticeOnTheFloor*'
 mutation "walls: half as far to the image" \
-    shaders/include/walls.glsl \
-    '2.0 * walls.plane - x' \
-    '1.5 * walls.plane - 0.5 * x' \
+    shaders/include/image_walk.glsl \
+    '2.0 * borders.plane - x' \
+    '1.5 * borders.plane - 0.5 * x' \
     conformance_tests '*PassConformance.AllPasses/LatticeOnTheFloor*'
 mutation "walls: the contact spring's damping pushes" \
     shaders/sim/forces.comp \
@@ -349,8 +432,8 @@ mutation "walls: the contact spring's damping pushes" \
     conformance_tests '*PassConformance.AllPasses/InTheCorners*'
 mutation "walls: no friction" \
     shaders/sim/forces.comp \
-    'friction = params.wall_viscosity' \
-    'friction = 0.0 * params.wall_viscosity' \
+    '0.0 : params.wall_viscosity / rho' \
+    '0.0 : 0.0 * params.wall_viscosity / rho' \
     conformance_tests '*PassConformance.EachForceAlone/InTheCorners*'
 mutation "integrator: a whole kick before the drift" \
     shaders/sim/kick_drift.comp \
@@ -541,8 +624,8 @@ mutation "confinement: it slows vortices down" \
     physics_short_tests 'Vortex.Confinement*'
 mutation "solve: too strong a relaxation" \
     engine/particles/sph_kernel.cpp \
-    'std::min(0.5, relaxation / largest' \
-    'std::min(0.5, 3.0 * relaxation / largest' \
+    'std::min(0.5, relaxation / eigenvalue' \
+    'std::min(0.5, 3.0 * relaxation / eigenvalue' \
     physics_short_tests 'Incompressible.DamBreak*'
 mutation "solve: warm starts stay behind in the sort" \
     shaders/sim/reorder_warm_start.comp \
@@ -881,8 +964,8 @@ mutation "viscosity solve: what it did is not kept for the next step" \
     conformance_tests 'States/PassConformance.SolvedViscosity/RandomWendland'
 mutation "viscosity solve: fluid 20 % too thick" \
     engine/particles/sph_kernel.cpp \
-    '{.scale = 5.0 /' \
-    '{.scale = 6.0 /' \
+    '{.scale = (n + 2.0) /' \
+    '{.scale = (n + 3.0) /' \
     physics_short_tests 'ViscousDecay.SolvedForHasTheExactRateInStepsOfAnyLength'
 mutation "viscosity solve: a lattice is the same along all directions without the taper" \
     engine/particles/sph_kernel.cpp \

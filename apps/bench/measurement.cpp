@@ -127,6 +127,14 @@ std::unique_ptr<Yardstick> make_yardstick(const ParticleSet& state, const shared
         log_warning("the yardstick knows one viscosity: this scene is measured without it");
         return nullptr;
     }
+    if (options.dimensions != 3 || params.periodic_mask != 0 || params.lid_velocity != glm::vec3(0.0f)) {
+        log_warning("the yardstick knows three dimensions and walls at rest alone: this scene is measured without it");
+        return nullptr;
+    }
+    if (options.shifting) {
+        log_warning("the yardstick shifts no particles: this scene is measured without it");
+        return nullptr;
+    }
     if (options.tension) {
         log_warning("the yardstick has no surface tension: this scene is measured without it");
         return nullptr;

@@ -52,7 +52,8 @@ struct Device {
     return {.kernel = settings.options.kernel,
             .params = params,
             .solver = settings.options.solver,
-            .implicit_viscosity = settings.options.implicit_viscosity};
+            .implicit_viscosity = settings.options.implicit_viscosity,
+            .dimensions = settings.options.dimensions};
 }
 
 } // namespace meltpoint::conformance

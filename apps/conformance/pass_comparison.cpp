@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <utility>
 
 #include <fmt/format.h>
@@ -21,10 +22,12 @@
 #include "reference/integrate.h"
 #include "reference/measure.h"
 #include "reference/pbf.h"
+#include "reference/shifting.h"
 #include "reference/state.h"
 #include "reference/step.h"
 #include "reference/vorticity.h"
 #include "shared/neighbor_count.h"
+#include "sim/shifting.h"
 #include "sim/wcsph.h"
 
 namespace meltpoint::conformance {
@@ -256,6 +259,33 @@ PassError compare_xsph(Device& device, const reference::Settings& settings, cons
     return {"xsph", error.value(), pass_bound};
 }
 
+PassError compare_shift(Device& device, const sim::FluidOptions& options, const reference::Settings& settings,
+                        const reference::Neighbors& neighbors)
+{
+    const sim::Shifting shifting(device.context, options);
+    const reference::State before = reference::from_particle_set(download_unordered(device.context, device.particles));
+    device.run(
+        [&] { shifting.record(device.commands, device.kernels, device.params_buffer, device.particles, device.grid); });
+    const ParticleSet gpu = download_unordered(device.context, device.particles);
+    const double cap = static_cast<double>(shared::SHIFT_CAP) * static_cast<double>(device.params.spacing);
+    RelativeError error;
+    for (std::size_t i = 0; i < gpu.size(); ++i) {
+        glm::dvec3 shift(0.0);
+        double magnitude = 0.0;
+        if (!reference::is_boundary(before, i)) {
+            shift = reference::shift(settings, before, neighbors, i);
+            magnitude = std::min(reference::wanted_shift(settings, before, neighbors, i).magnitude, cap);
+        }
+        // A shift is small against the position that it is added to, whose rounding is no error of the pass.
+        const glm::dvec3 expected = reference::wrap_position(device.params, before.position[i] + shift);
+        const glm::dvec3 rounding = 4.0 * static_cast<double>(std::numeric_limits<float>::epsilon()) *
+                                    glm::max(glm::abs(before.position[i]), glm::abs(expected));
+        const glm::dvec3 difference = glm::abs(glm::dvec3(gpu.position[i]) - expected) - rounding;
+        error.add(glm::length(glm::max(difference, glm::dvec3(0.0))), magnitude);
+    }
+    return {"shift", error.value(), pass_bound};
+}
+
 PassError compare_kick(Device& device)
 {
     reference::State twin = reference::from_particle_set(download_unordered(device.context, device.particles));
@@ -312,6 +342,9 @@ std::vector<PassError> compare_passes(const gpu::Context& context, const Particl
         errors.push_back(compare_xsph(device, twin_settings, neighbors));
     }
     errors.push_back(compare_kick(device));
+    if (settings.options.shifting) { // last: neighbors are those of before
+        errors.push_back(compare_shift(device, settings.options, twin_settings, neighbors));
+    }
     return errors;
 }
 

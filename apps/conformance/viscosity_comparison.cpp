@@ -131,7 +131,8 @@ private:
         const Vectors found = download(viscosity_.residual());
         RelativeError error;
         for_each_fluid([&](std::size_t i) {
-            const reference::VectorSum change = reference::viscous_change(settings_, twin_, neighbors_, velocity, i);
+            reference::VectorSum change = reference::viscous_change(settings_, twin_, neighbors_, velocity, i);
+            change.add(reference::lid_change(settings_, twin_, i));
             error.add(glm::length(found[i] - (change.value - start[i])), change.magnitude + glm::length(start[i]));
         });
         return {"viscosity solve: residual", error.value(), pass_bound};

@@ -18,15 +18,16 @@ namespace {
 
 constexpr double PI = std::numbers::pi;
 
-// Calls body(place in spacings, distance in spacings) for each site of the cubic lattice
-// nearer than the support radius, the origin included.
+// Calls body(place in spacings, distance in spacings) for each site of the cubic, in the plane square, lattice nearer
+// than the support radius, the origin included.
 template <class Body>
-void for_each_lattice_site(double support_ratio, const Body& body)
+void for_each_lattice_site(double support_ratio, std::uint32_t dimensions, const Body& body)
 {
     const int reach = static_cast<int>(support_ratio);
+    const int reach_z = dimensions == 3 ? reach : 0;
     for (int x = -reach; x <= reach; ++x) {
         for (int y = -reach; y <= reach; ++y) {
-            for (int z = -reach; z <= reach; ++z) {
+            for (int z = -reach_z; z <= reach_z; ++z) {
                 const double r = std::sqrt(static_cast<double>(x * x + y * y + z * z));
                 if (r < support_ratio) {
                     body(glm::dvec3(x, y, z), r);
@@ -99,24 +100,39 @@ double color_gradient_shape(std::uint32_t kernel, double q)
     return gradient_shape(kernel, q);
 }
 
-double color_laplacian_shape(std::uint32_t kernel, double q)
+double color_laplacian_shape(std::uint32_t kernel, double q, std::uint32_t dimensions)
 {
     if (q >= 1.0) {
         return 0.0;
     }
     if (kernel == shared::KERNEL_PAPER) {
-        return (1.0 - q * q) * (3.0 - 7.0 * q * q);
+        return (1.0 - q * q) * (dimensions == 3 ? 3.0 - 7.0 * q * q : 1.0 - 3.0 * q * q);
     }
     const double u = 1.0 - q;
-    return u * u * (1.0 - 2.0 * q);
+    return u * u * (1.0 - (dimensions == 3 ? 2.0 : 2.5) * q);
 }
 
-KernelScales continuum_scales(std::uint32_t kernel, double support_radius)
+KernelScales continuum_scales(std::uint32_t kernel, double support_radius, std::uint32_t dimensions)
 {
     const double h = support_radius;
-    const double h3 = h * h * h;
+    const double h2 = h * h;
+    const double h3 = h2 * h;
     const double h4 = h3 * h;
     const double h5 = h4 * h;
+    if (dimensions == 2 && kernel == shared::KERNEL_PAPER) {
+        return {.density = 4.0 / (PI * h2),
+                .gradient = 30.0 / (PI * h3),
+                .viscosity = 40.0 / (PI * h4),
+                .color_gradient = 24.0 / (PI * h3),
+                .color_laplacian = 48.0 / (PI * h4)};
+    }
+    if (dimensions == 2) {
+        return {.density = 7.0 / (PI * h2),
+                .gradient = 140.0 / (PI * h3),
+                .viscosity = 280.0 / (PI * h4),
+                .color_gradient = 140.0 / (PI * h3),
+                .color_laplacian = 280.0 / (PI * h4)};
+    }
     if (kernel == shared::KERNEL_PAPER) {
         return {.density = 315.0 / (64.0 * PI * h3),
                 .gradient = 45.0 / (PI * h4),
@@ -131,17 +147,17 @@ KernelScales continuum_scales(std::uint32_t kernel, double support_radius)
             .color_laplacian = 630.0 / (PI * h5)};
 }
 
-LatticeMoments lattice_moments(std::uint32_t kernel, double support_radius, double spacing)
+LatticeMoments lattice_moments(std::uint32_t kernel, double support_radius, double spacing, std::uint32_t dimensions)
 {
     const double ratio = checked_support_ratio(support_radius, spacing);
-    const KernelScales scale = continuum_scales(kernel, ratio); // in units of the spacing: d = 1
+    const KernelScales scale = continuum_scales(kernel, ratio, dimensions); // in units of the spacing: d = 1
     LatticeMoments moments{};
-    for_each_lattice_site(ratio, [&](const glm::dvec3& site, double r) {
+    for_each_lattice_site(ratio, dimensions, [&](const glm::dvec3& site, double r) {
         const double q = r / ratio;
         const double xx = site.x * site.x;
         moments.density += scale.density * density_shape(kernel, q);
         moments.viscosity += 0.5 * xx * scale.viscosity * viscosity_shape(kernel, q);
-        moments.color_laplacian -= 0.5 * xx * scale.color_laplacian * color_laplacian_shape(kernel, q);
+        moments.color_laplacian -= 0.5 * xx * scale.color_laplacian * color_laplacian_shape(kernel, q, dimensions);
         if (site.x != 0.0) {
             moments.gradient += xx / r * scale.gradient * gradient_shape(kernel, q);
             moments.color_gradient += xx / r * scale.color_gradient * color_gradient_shape(kernel, q);
@@ -150,27 +166,30 @@ LatticeMoments lattice_moments(std::uint32_t kernel, double support_radius, doub
     return moments;
 }
 
-double lattice_response(std::uint32_t kernel, double support_radius, double spacing)
+double lattice_response(std::uint32_t kernel, double support_radius, double spacing, std::uint32_t dimensions)
 {
     const double ratio = checked_support_ratio(support_radius, spacing);
     double sum = 0.0;
-    for_each_lattice_site(ratio, [&](const glm::dvec3&, double r) {
+    for_each_lattice_site(ratio, dimensions, [&](const glm::dvec3&, double r) {
         sum += r > 0.0 ? std::pow(gradient_shape(kernel, r / ratio), 2) : 0.0;
     });
     return sum;
 }
 
-double largest_jacobi_eigenvalue(std::uint32_t kernel, double support_radius, double spacing)
+double largest_jacobi_eigenvalue(std::uint32_t kernel, double support_radius, double spacing, std::uint32_t dimensions)
 {
     const double ratio = checked_support_ratio(support_radius, spacing);
     constexpr double finest = 0.02; // of the wave numbers, over 1/d
     double largest = 0.0;
     for (const glm::dvec3& direction : {glm::dvec3(1, 0, 0), glm::dvec3(1, 1, 0), glm::dvec3(1, 1, 1)}) {
+        if (dimensions == 2 && direction.z > 0.0) {
+            continue;
+        }
         const glm::dvec3 u = glm::normalize(direction);
         for (double k = finest; k < PI * glm::length(direction); k += finest) {
             glm::dvec3 sum(0.0);
             double squares = 0.0;
-            for_each_lattice_site(ratio, [&](const glm::dvec3& x, double r) {
+            for_each_lattice_site(ratio, dimensions, [&](const glm::dvec3& x, double r) {
                 if (r > 0.0) {
                     const glm::dvec3 g = gradient_shape(kernel, r / ratio) / r * x;
                     sum += std::sin(k * glm::dot(x, u)) * g;
@@ -183,31 +202,32 @@ double largest_jacobi_eigenvalue(std::uint32_t kernel, double support_radius, do
     return largest;
 }
 
-PairViscosity pair_viscosity(double support_radius, double spacing)
+PairViscosity pair_viscosity(double support_radius, double spacing, std::uint32_t dimensions)
 {
     const double ratio = checked_support_ratio(support_radius, spacing);
-    // Of the shapes u and u^2: 1/6 sum r^2 L, and 5/2 sum x^2 y^2 / r^2 L, which a shear along the axes feels. In the
-    // continuum they are equal.
+    const auto n = static_cast<double>(dimensions);
+    // Of the shapes u and u^2: 1/(2n) sum r^2 L in n dimensions, and (n + 2)/2 sum x^2 y^2 / r^2 L, which a shear along
+    // the axes feels. In the continuum they are equal.
     glm::dvec2 mean(0.0);
     glm::dvec2 shear(0.0);
-    for_each_lattice_site(ratio, [&](const glm::dvec3& x, double r) {
+    for_each_lattice_site(ratio, dimensions, [&](const glm::dvec3& x, double r) {
         if (r > 0.0) {
             const double u = 1.0 - r / ratio;
-            mean += r * r / 6.0 * glm::dvec2(u, u * u);
-            shear += 2.5 * std::pow(x.x * x.y / r, 2) * glm::dvec2(u, u * u);
+            mean += r * r / (2.0 * n) * glm::dvec2(u, u * u);
+            shear += 0.5 * (n + 2.0) * std::pow(x.x * x.y / r, 2) * glm::dvec2(u, u * u);
         }
     });
     constexpr double least_taper = -0.5; // then the pull still falls with the distance
     constexpr double most_taper = 2.0;
     const double taper = std::clamp((mean.x - shear.x) / (shear.y - mean.y), least_taper, most_taper);
-    return {.scale = 5.0 / (std::pow(spacing, 5) * (mean.x + taper * mean.y)), .taper = taper};
+    return {.scale = (n + 2.0) / (std::pow(spacing, n + 2.0) * (mean.x + taper * mean.y)), .taper = taper};
 }
 
-double wall_viscosity_integral(std::uint32_t kernel, double distance, double support_radius)
+double wall_viscosity_integral(std::uint32_t kernel, double distance, double support_radius, std::uint32_t dimensions)
 {
     if (distance < 0.0) {
-        return 2.0 * wall_viscosity_integral(kernel, 0.0, support_radius) -
-               wall_viscosity_integral(kernel, -distance, support_radius);
+        return 2.0 * wall_viscosity_integral(kernel, 0.0, support_radius, dimensions) -
+               wall_viscosity_integral(kernel, -distance, support_radius, dimensions);
     }
     const double q = distance / support_radius;
     if (q >= 1.0) {
@@ -215,21 +235,30 @@ double wall_viscosity_integral(std::uint32_t kernel, double distance, double sup
     }
     const double u = 1.0 - q;
     const double per_area = 1.0 / (support_radius * support_radius);
+    if (dimensions == 2) { // integrals of 2 t acos(q/t) L(t) from q to 1, term by term
+        const double s = std::sqrt(1.0 - q * q);
+        const double tail = q > 0.0 ? q * q * q * std::log((1.0 + s) / q) : 0.0;
+        if (kernel == shared::KERNEL_PAPER) {
+            return 40.0 / PI * per_area * (std::acos(q) - 2.0 * q * s + tail) / 3.0;
+        }
+        return 280.0 / PI * per_area *
+               (0.1 * std::acos(q) - 0.4 * q * s - 0.85 * q * q * q * s + tail * (1.0 + 0.15 * q * q));
+    }
     if (kernel == shared::KERNEL_PAPER) {
         return 7.5 * per_area * u * u * u * (1.0 + q);
     }
     return 14.0 * per_area * u * u * u * u * u * (1.0 + 2.0 * q);
 }
 
-void set_kernel_scales(shared::SphParams& params, std::uint32_t kernel, double spacing)
+void set_kernel_scales(shared::SphParams& params, std::uint32_t kernel, double spacing, std::uint32_t dimensions)
 {
     const double support_radius = static_cast<double>(params.support_radius);
-    const LatticeMoments moments = lattice_moments(kernel, support_radius, spacing);
-    const KernelScales scale = continuum_scales(kernel, support_radius);
+    const LatticeMoments moments = lattice_moments(kernel, support_radius, spacing, dimensions);
+    const KernelScales scale = continuum_scales(kernel, support_radius, dimensions);
     params.density_scale = static_cast<float>(scale.density / moments.density);
     params.gradient_scale = static_cast<float>(scale.gradient / moments.gradient);
     params.viscosity_scale = static_cast<float>(scale.viscosity / moments.viscosity);
-    const PairViscosity pairs = pair_viscosity(support_radius, spacing);
+    const PairViscosity pairs = pair_viscosity(support_radius, spacing, dimensions);
     params.pair_viscosity_scale = static_cast<float>(pairs.scale);
     params.pair_viscosity_taper = static_cast<float>(pairs.taper);
     params.color_gradient_scale = static_cast<float>(scale.color_gradient / moments.color_gradient);
@@ -237,13 +266,15 @@ void set_kernel_scales(shared::SphParams& params, std::uint32_t kernel, double s
 
     // Below 2 over the eigenvalue, and with something left for particles that lie less evenly.
     constexpr double relaxation = 1.3;
-    params.solve_relaxation =
-        static_cast<float>(std::min(0.5, relaxation / largest_jacobi_eigenvalue(kernel, support_radius, spacing)));
+    const double eigenvalue = largest_jacobi_eigenvalue(kernel, support_radius, spacing, dimensions);
+    params.solve_relaxation = static_cast<float>(std::min(0.5, relaxation / eigenvalue));
 
     const double near = static_cast<double>(shared::ARTIFICIAL_PRESSURE_DISTANCE) * spacing / support_radius;
     params.artificial_pressure_scale = static_cast<float>(1.0 / density_shape(kernel, near));
 
     params.spacing = static_cast<float>(spacing);
+    params.shifting_scale = static_cast<float>(1.0 / density_shape(kernel, spacing / support_radius));
+    params.lattice_volume = static_cast<float>(std::pow(spacing, dimensions));
     const double rate = static_cast<double>(params.speed_of_sound) / spacing; // sound crosses a spacing in 1/rate
     params.contact_distance = static_cast<float>(0.25 * spacing);
     params.contact_stiffness = static_cast<float>(rate * rate);

@@ -6,12 +6,13 @@
 
 namespace meltpoint {
 
-/// The kernels of SPH in three dimensions, in double precision. `kernel` is shared::KERNEL_PAPER (poly6 for density and
-/// color field, spiky for pressure, viscosity Laplacian; Müller, Charypar & Gross 2003) or shared::KERNEL_WENDLAND
-/// (Wendland C2 for all; Wendland 1995, Dehnen & Aly 2012).
+/// The kernels of SPH in three dimensions, or in two where `dimensions` is 2, in double precision. `kernel` is
+/// shared::KERNEL_PAPER (poly6 for density and color field, spiky for pressure, viscosity Laplacian; Müller, Charypar &
+/// Gross 2003) or shared::KERNEL_WENDLAND (Wendland C2 for all; Wendland 1995, Dehnen & Aly 2012).
 ///
 /// Every kernel is a scale times a shape. The shape is a pure number, a function of q = r/H, zero for q >= 1; the scale
-/// carries the units and depends on the support radius H alone.
+/// carries the units and depends on the support radius H and the dimensions alone. Units are those of three dimensions:
+/// in two a meter less, of volumes as of all that is divided by them.
 
 /// W = density scale * shape.
 [[nodiscard]] double density_shape(std::uint32_t kernel, double q);
@@ -27,7 +28,7 @@ namespace meltpoint {
 [[nodiscard]] double color_gradient_shape(std::uint32_t kernel, double q);
 
 /// lap W = -color Laplacian scale * shape, the Laplacian of the color field's kernel.
-[[nodiscard]] double color_laplacian_shape(std::uint32_t kernel, double q);
+[[nodiscard]] double color_laplacian_shape(std::uint32_t kernel, double q, std::uint32_t dimensions = 3);
 
 /// Of the viscous forces along the line of a pair, solved for: u (1 + taper u) with u = 1 - q, the same for all
 /// kernels.
@@ -42,9 +43,10 @@ struct KernelScales {
 };
 
 /// The scales whose kernels integrate to one. support_radius in meters.
-[[nodiscard]] KernelScales continuum_scales(std::uint32_t kernel, double support_radius);
+[[nodiscard]] KernelScales continuum_scales(std::uint32_t kernel, double support_radius, std::uint32_t dimensions = 3);
 
-/// What the kernel sums give on a cubic lattice of spacing d; each is 1 in the continuum (Monaghan 2005, section 2).
+/// What the kernel sums give on a cubic lattice of spacing d, in two dimensions a square one of cells d^2; each is 1 in
+/// the continuum (Monaghan 2005, section 2).
 struct LatticeMoments {
     double density;         ///< sum d^3 W, self included
     double gradient;        ///< -sum d^3 x dW/dx
@@ -54,37 +56,42 @@ struct LatticeMoments {
 };
 
 /// support_radius and spacing in meters. Throws Error{Input} unless MIN_SUPPORT_RATIO <= H/d <= MAX_SUPPORT_RATIO.
-[[nodiscard]] LatticeMoments lattice_moments(std::uint32_t kernel, double support_radius, double spacing);
+[[nodiscard]] LatticeMoments lattice_moments(std::uint32_t kernel, double support_radius, double spacing,
+                                             std::uint32_t dimensions = 3);
 
 /// The viscous forces of pairs where viscosity is solved for: particle i feels mu V_i V_j scale shape(q) x x^T (v_j -
-/// v_i), x the unit vector from j to i. The scale makes them those of a fluid of viscosity mu (1/2 sum d^3 r^2 L = 3
-/// with L = scale shape / 5; 5 = d + 2, Monaghan 2005, section 9.2). A lattice resists shear along its axes as along
-/// its diagonals only if its fourth moments are isotropic: the taper makes them so, or nearly so where that would take
-/// too odd a shape.
+/// v_i), x the unit vector from j to i. The scale makes them those of a fluid of viscosity mu (1/2 sum d^n r^2 L = n
+/// with L = scale shape / (n + 2) in n dimensions, Monaghan 2005, section 9.2). A lattice resists shear along its axes
+/// as along its diagonals only if its fourth moments are isotropic: the taper makes them so, or nearly so where that
+/// would take too odd a shape.
 struct PairViscosity {
     double scale; ///< 1/m^5
     double taper;
 };
 
 /// support_radius and spacing in meters. Throws as lattice_moments.
-[[nodiscard]] PairViscosity pair_viscosity(double support_radius, double spacing);
+[[nodiscard]] PairViscosity pair_viscosity(double support_radius, double spacing, std::uint32_t dimensions = 3);
 
 /// What the density of a particle of that lattice responds with to its neighbors' moves, sum_j |grad W_ij|^2 over the
 /// squared gradient scale: the unit of params.constraint_softness. Throws as lattice_moments.
-[[nodiscard]] double lattice_response(std::uint32_t kernel, double support_radius, double spacing);
+[[nodiscard]] double lattice_response(std::uint32_t kernel, double support_radius, double spacing,
+                                      std::uint32_t dimensions = 3);
 
 /// The largest eigenvalue of the pressure solves' Jacobi matrix on that lattice, where it is about 3 at H = 2 d and 6
 /// at 3 d: plane waves of pressure are its eigenvectors, with the eigenvalues |sum_j g_j sin(k . x_j)|^2 / sum_j
 /// |g_j|^2, g_j the kernel gradients. Jacobi iterations converge when relaxed by less than 2 over it. Throws as
 /// lattice_moments.
-[[nodiscard]] double largest_jacobi_eigenvalue(std::uint32_t kernel, double support_radius, double spacing);
+[[nodiscard]] double largest_jacobi_eigenvalue(std::uint32_t kernel, double support_radius, double spacing,
+                                               std::uint32_t dimensions = 3);
 
 inline constexpr double MIN_SUPPORT_RATIO = 1.2; ///< below, a lattice has hardly any neighbors left
 inline constexpr double MAX_SUPPORT_RATIO = 8.0; ///< above, a particle has more than 2100 neighbors
 
-/// What the half space beyond a plane wall adds to the sum of L, 1/m^2: its integral there. `distance` is the
-/// particle's signed distance to the wall in meters, positive inside; the kernel is that of the continuum.
-[[nodiscard]] double wall_viscosity_integral(std::uint32_t kernel, double distance, double support_radius);
+/// What the half space (in two dimensions the half plane) beyond a plane wall adds to the sum of L, 1/m^2: its integral
+/// there. `distance` is the particle's signed distance to the wall in meters, positive inside; the kernel is that of
+/// the continuum.
+[[nodiscard]] double wall_viscosity_integral(std::uint32_t kernel, double distance, double support_radius,
+                                             std::uint32_t dimensions = 3);
 
 /// The same viscosity (Pa s) for every fluid.
 inline void set_viscosity(shared::SphParams& params, float viscosity)
@@ -94,9 +101,10 @@ inline void set_viscosity(shared::SphParams& params, float viscosity)
     }
 }
 
-/// Fills the spacing (m) and what follows from it, kernel, support radius and speed of sound: the five kernel scales
-/// divided by their lattice moments, the relaxation of pressure solves, the unit of artificial pressure, and the
-/// contact spring. params.support_radius and params.speed_of_sound must be set. Throws as lattice_moments does.
-void set_kernel_scales(shared::SphParams& params, std::uint32_t kernel, double spacing);
+/// Fills the spacing (m), the volume of a lattice cell and what follows from them, kernel, support radius and speed of
+/// sound: the five kernel scales divided by their lattice moments, the relaxation of pressure solves, the unit of
+/// artificial pressure, and the contact spring. params.support_radius and params.speed_of_sound must be set. Throws as
+/// lattice_moments does.
+void set_kernel_scales(shared::SphParams& params, std::uint32_t kernel, double spacing, std::uint32_t dimensions = 3);
 
 } // namespace meltpoint

@@ -22,7 +22,7 @@ double boundary_weight(const Settings& settings, const State& state, const Neigh
         }
     }
     const double volume = 1.0 / (static_cast<double>(settings.params.density_scale) * sum);
-    return volume / std::pow(static_cast<double>(settings.params.spacing), 3);
+    return volume / static_cast<double>(settings.params.lattice_volume);
 }
 
 void update_boundary_weights(const Settings& settings, State& state, const Neighbors& neighbors)

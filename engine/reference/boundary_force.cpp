@@ -31,7 +31,7 @@ VectorSum push_on_boundary(const Settings& settings, const State& state, const N
 VectorSum friction_on_boundary(const Settings& settings, const State& state, const Neighbors& neighbors, std::size_t b)
 {
     const double support_radius = static_cast<double>(settings.params.support_radius);
-    const double volume = state.weight[b] * std::pow(static_cast<double>(settings.params.spacing), 3);
+    const double volume = state.weight[b] * static_cast<double>(settings.params.lattice_volume);
     const double friction =
         static_cast<double>(settings.params.friction[shared::particle_material(state.attributes[b])]);
     const double factor = friction * volume * static_cast<double>(settings.params.viscosity_scale);

@@ -45,14 +45,18 @@ bool are_neighbors(const glm::dvec3& a, const glm::dvec3& b, double support_radi
     return glm::dot(r, r) < support_radius * support_radius;
 }
 
-// Every set of walls out of `available` with at most one wall an axis, the empty set first.
-std::vector<Reflection> reflections(std::uint32_t available)
+// Every set of borders out of `available` with at most one an axis, the empty set first.
+std::vector<Reflection> reflections(std::uint32_t available, std::uint32_t periodic_mask)
 {
     std::vector<Reflection> all;
     for (Reflection walls = 0; walls < 64; ++walls) {
         const bool both_of_an_axis = (walls & (walls >> 1) & 0b010101u) != 0u;
         if ((walls & ~available) == 0u && !both_of_an_axis) {
-            all.push_back(walls);
+            Reflection shifts = 0;
+            for (int axis = 0; axis < 3; ++axis) {
+                shifts |= (walls & periodic_mask & 3u << 2 * axis) != 0u ? 1u << (6 + axis) : 0u;
+            }
+            all.push_back(walls | shifts);
         }
     }
     return all;
@@ -66,7 +70,7 @@ std::uint32_t walls_within(const shared::SphParams& params, const glm::dvec3& po
         const double plane = static_cast<double>(wall % 2 == 1 ? params.domain_max[axis] : params.domain_min[axis]);
         near |= std::abs(position[axis] - plane) < distance ? 1u << wall : 0u;
     }
-    return near & params.wall_mask;
+    return near & (params.wall_mask | params.periodic_mask);
 }
 
 Neighbors concatenate(const std::vector<std::vector<Neighbor>>& lists)
@@ -98,7 +102,8 @@ Neighbors find_neighbors(const shared::SphParams& params, std::span<const glm::d
         if (!is_finite(position[j])) {
             continue;
         }
-        for (const Reflection reflection : reflections(walls_within(params, position[j], support_radius))) {
+        for (const Reflection reflection :
+             reflections(walls_within(params, position[j], support_radius), params.periodic_mask)) {
             const glm::dvec3 image = reflect_position(params, reflection, position[j]);
             entries.push_back({cell_of(image, cell_size), {j, reflection}, image});
         }
@@ -134,7 +139,8 @@ Neighbors find_neighbors(const shared::SphParams& params, std::span<const glm::d
 
 Neighbors find_neighbors_by_brute_force(const shared::SphParams& params, std::span<const glm::dvec3> position)
 {
-    const std::vector<Reflection> all_reflections = reflections(params.wall_mask);
+    const std::vector<Reflection> all_reflections =
+        reflections(params.wall_mask | params.periodic_mask, params.periodic_mask);
     std::vector<std::vector<Neighbor>> lists(position.size());
     parallel_for(position.size(), [&](std::size_t i) {
         const Neighbor itself{static_cast<std::uint32_t>(i), 0};

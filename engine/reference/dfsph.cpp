@@ -8,6 +8,7 @@
 #include "particles/sph_kernel.h"
 #include "reference/density.h"
 #include "reference/integrate.h"
+#include "reference/shifting.h"
 #include "reference/viscosity.h"
 #include "reference/vorticity.h"
 #include "reference/walls.h"
@@ -187,6 +188,7 @@ DfsphStep dfsph_step(const Settings& settings, State& state, WarmStarts& warm_st
         const double volume = is_boundary(state, i) ? 1.0 : state.mass[i] / state.density[i];
         state.pressure[i] = warm_starts[shared::SOLVE_DENSITY][i] / (dt2 * volume * volume);
     }
+    shift_particles(settings, state, neighbors);
     hold_off_walls(settings, state);
     drift(settings, state);
     ++state.step;

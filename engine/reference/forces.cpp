@@ -17,7 +17,7 @@ namespace {
 
 double volume(const Settings& settings, const State& state, std::size_t i)
 {
-    return is_boundary(state, i) ? state.weight[i] * std::pow(static_cast<double>(settings.params.spacing), 3)
+    return is_boundary(state, i) ? state.weight[i] * static_cast<double>(settings.params.lattice_volume)
                                  : state.mass[i] / state.density[i];
 }
 
@@ -98,13 +98,14 @@ ColorField color_field(const Settings& settings, const State& state, const Neigh
         color.laplacian += term;
         color.laplacian_magnitude += std::abs(term);
     };
-    add_laplacian(-volume(settings, state, i) * laplacian_scale * color_laplacian_shape(settings.kernel, 0.0));
+    add_laplacian(-volume(settings, state, i) * laplacian_scale *
+                  color_laplacian_shape(settings.kernel, 0.0, settings.dimensions));
     for (const Neighbor& neighbor : neighbors.of(i)) {
         const Pair pair = make_pair(settings, state, i, neighbor);
         color.gradient.add(-volume(settings, state, pair.j) * gradient_scale *
                            color_gradient_shape(settings.kernel, pair.q) * pair.direction);
         add_laplacian(-volume(settings, state, pair.j) * laplacian_scale *
-                      color_laplacian_shape(settings.kernel, pair.q));
+                      color_laplacian_shape(settings.kernel, pair.q, settings.dimensions));
     }
     return color;
 }
@@ -128,12 +129,13 @@ VectorSum tension_acceleration(const Settings& settings, const State& state, con
 VectorSum wall_viscosity_acceleration(const Settings& settings, const State& state, std::size_t i)
 {
     const double support_radius = static_cast<double>(settings.params.support_radius);
-    const double moment = continuum_scales(settings.kernel, support_radius).viscosity /
+    const double moment = continuum_scales(settings.kernel, support_radius, settings.dimensions).viscosity /
                           static_cast<double>(settings.params.viscosity_scale);
     const double factor = static_cast<double>(settings.params.wall_viscosity) / (state.density[i] * moment);
     VectorSum sum;
-    for_each_wall(settings.params, state.position[i], [&](double distance, const glm::dvec3&) {
-        sum.add(-factor * wall_viscosity_integral(settings.kernel, distance, support_radius) * state.velocity[i]);
+    for_each_wall(settings.params, state.position[i], [&](double distance, const glm::dvec3& normal) {
+        sum.add(-factor * wall_viscosity_integral(settings.kernel, distance, support_radius, settings.dimensions) *
+                (state.velocity[i] - wall_velocity(settings.params, normal)));
     });
     return sum;
 }

@@ -63,8 +63,8 @@ struct ColorField {
 [[nodiscard]] VectorSum tension_acceleration(const Settings& settings, const State& state, const Neighbors& neighbors,
                                              std::size_t i);
 
-/// Friction of the walls: half spaces of fluid at rest with viscosity params.wall_viscosity. Without it walls let fluid
-/// slip.
+/// Friction of the walls: half spaces of fluid at rest, or of the lid's velocity, with viscosity params.wall_viscosity.
+/// Without it walls let fluid slip.
 [[nodiscard]] VectorSum wall_viscosity_acceleration(const Settings& settings, const State& state, std::size_t i);
 
 /// The damped spring that holds a particle nearer to a wall than params.contact_distance. It never pulls.

@@ -64,7 +64,7 @@ void drift(const Settings& settings, State& state)
     const double dt = static_cast<double>(settings.params.dt);
     parallel_for(state.size(), [&](std::size_t i) {
         if (!is_boundary(state, i)) {
-            state.position[i] += state.velocity[i] * dt;
+            state.position[i] = wrap_position(settings.params, state.position[i] + state.velocity[i] * dt);
         }
     });
     watch(settings, state);

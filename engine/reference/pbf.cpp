@@ -49,7 +49,8 @@ void predict(const Settings& settings, State& state)
     hold_off_walls(settings, state);
     parallel_for(state.size(), [&](std::size_t i) {
         if (!is_boundary(state, i)) {
-            state.position[i] += static_cast<double>(settings.params.dt) * state.velocity[i];
+            const glm::dvec3 move = static_cast<double>(settings.params.dt) * state.velocity[i];
+            state.position[i] = wrap_position(settings.params, state.position[i] + move);
         }
     });
 }
@@ -177,7 +178,8 @@ std::uint32_t finish(const Settings& settings, State& state, const std::vector<g
             state.velocity[i] *= limit / speed;
             ++capped;
         }
-        state.position[i] += speed > limit ? dt * (state.velocity[i] - before) : moves[i];
+        const glm::dvec3 move = speed > limit ? dt * (state.velocity[i] - before) : moves[i];
+        state.position[i] = wrap_position(settings.params, state.position[i] + move);
         state.pressure[i] /= dt * dt * std::pow(state.mass[i] / state.density[i], 2);
     }
     watch(settings, state);

@@ -19,6 +19,7 @@ struct Settings {
     shared::SphParams params{};
     std::uint32_t solver = shared::SOLVER_WCSPH;
     bool implicit_viscosity = false; ///< solved for (reference/viscosity)
+    std::uint32_t dimensions = 3;    ///< or 2
 };
 
 /// What a run has noticed: its first fault, and the pairs without direction of the last force evaluation.

@@ -6,6 +6,7 @@
 #include "reference/density.h"
 #include "reference/forces.h"
 #include "reference/integrate.h"
+#include "reference/shifting.h"
 #include "reference/viscosity.h"
 #include "reference/vorticity.h"
 
@@ -43,6 +44,9 @@ void step(const Settings& settings, State& state)
     kick(state, half_step);
     if (settings.implicit_viscosity) {
         (void)solve_viscosity(settings, state, find_neighbors(settings.params, state.position));
+    }
+    if (settings.params.shifting > 0.0f) {
+        shift_particles(settings, state, find_neighbors(settings.params, state.position));
     }
     ++state.step;
 }

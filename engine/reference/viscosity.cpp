@@ -14,7 +14,7 @@ namespace {
 
 double volume(const Settings& settings, const State& state, std::size_t i)
 {
-    return is_boundary(state, i) ? state.weight[i] * std::pow(static_cast<double>(settings.params.spacing), 3)
+    return is_boundary(state, i) ? state.weight[i] * static_cast<double>(settings.params.lattice_volume)
                                  : state.mass[i] / state.density[i];
 }
 
@@ -45,13 +45,27 @@ glm::dmat3 pair_matrix(const Settings& settings, const State& state, std::size_t
 double wall_drag(const Settings& settings, const State& state, std::size_t i)
 {
     const double support_radius = static_cast<double>(settings.params.support_radius);
-    const double moment = continuum_scales(settings.kernel, support_radius).viscosity /
+    const double moment = continuum_scales(settings.kernel, support_radius, settings.dimensions).viscosity /
                           static_cast<double>(settings.params.viscosity_scale);
     double sum = 0.0;
     for_each_wall(settings.params, state.position[i], [&](double distance, const glm::dvec3&) {
-        sum += wall_viscosity_integral(settings.kernel, distance, support_radius);
+        sum += wall_viscosity_integral(settings.kernel, distance, support_radius, settings.dimensions);
     });
     return static_cast<double>(settings.params.wall_viscosity) / moment * sum * volume(settings, state, i);
+}
+
+/// What the lid drags along with it, N.
+glm::dvec3 lid_force(const Settings& settings, const State& state, std::size_t i)
+{
+    const double support_radius = static_cast<double>(settings.params.support_radius);
+    const double moment = continuum_scales(settings.kernel, support_radius, settings.dimensions).viscosity /
+                          static_cast<double>(settings.params.viscosity_scale);
+    glm::dvec3 sum(0.0);
+    for_each_wall(settings.params, state.position[i], [&](double distance, const glm::dvec3& normal) {
+        sum += wall_viscosity_integral(settings.kernel, distance, support_radius, settings.dimensions) *
+               wall_velocity(settings.params, normal);
+    });
+    return static_cast<double>(settings.params.wall_viscosity) / moment * volume(settings, state, i) * sum;
 }
 
 double step_over_mass(const Settings& settings, const State& state, std::size_t i)
@@ -72,6 +86,11 @@ VectorSum viscous_change(const Settings& settings, const State& state, const Nei
     }
     sum.add(-factor * wall_drag(settings, state, i) * velocity[i]);
     return sum;
+}
+
+glm::dvec3 lid_change(const Settings& settings, const State& state, std::size_t i)
+{
+    return step_over_mass(settings, state, i) * lid_force(settings, state, i);
 }
 
 glm::dmat3 viscosity_block(const Settings& settings, const State& state, const Neighbors& neighbors, std::size_t i)
@@ -120,7 +139,7 @@ SolveResult solve_viscosity(const Settings& settings, State& state, const Neighb
         p[i] += u[i];
     });
     for_each_fluid([&](std::size_t i) {
-        r[i] = viscous_change(settings, state, neighbors, p, i).value - u[i];
+        r[i] = viscous_change(settings, state, neighbors, p, i).value + lid_change(settings, state, i) - u[i];
         preconditioner[i] = glm::inverse(viscosity_block(settings, state, neighbors, i));
         z[i] = preconditioner[i] * r[i];
     });

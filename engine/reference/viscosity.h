@@ -21,6 +21,9 @@ namespace meltpoint::reference {
 [[nodiscard]] VectorSum viscous_change(const Settings& settings, const State& state, const Neighbors& neighbors,
                                        const std::vector<glm::dvec3>& velocity, std::size_t i);
 
+/// What a lid that moves adds to that, m/s: not of the matrix, but of the right side.
+[[nodiscard]] glm::dvec3 lid_change(const Settings& settings, const State& state, std::size_t i);
+
 /// The block of A of particle i, without its own images.
 [[nodiscard]] glm::dmat3 viscosity_block(const Settings& settings, const State& state, const Neighbors& neighbors,
                                          std::size_t i);

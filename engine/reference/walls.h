@@ -25,14 +25,24 @@ void for_each_wall(const shared::SphParams& params, const glm::dvec3& position, 
     }
 }
 
-/// A set of walls, at most one an axis, that a particle is reflected across: bits as in SphParams::wall_mask. 0 is the
-/// particle itself.
+/// A set of borders, at most one an axis, beyond which an image of a particle lies: bits as in SphParams::wall_mask,
+/// and bit 6 + axis where that axis is periodic, so that the image is shifted by the domain's length instead of
+/// reflected. 0 is the particle itself.
 using Reflection = std::uint32_t;
+
+[[nodiscard]] inline bool is_shifted(Reflection walls, int axis)
+{
+    return (walls >> (6 + axis) & 1u) != 0u;
+}
 
 [[nodiscard]] inline glm::dvec3 reflect_position(const shared::SphParams& params, Reflection walls, glm::dvec3 position)
 {
     for (int axis = 0; axis < 3; ++axis) {
-        if ((walls >> (2 * axis) & 1u) != 0u) {
+        if (is_shifted(walls, axis)) {
+            const double length =
+                static_cast<double>(params.domain_max[axis]) - static_cast<double>(params.domain_min[axis]);
+            position[axis] += (walls >> (2 * axis) & 1u) != 0u ? length : -length;
+        } else if ((walls >> (2 * axis) & 1u) != 0u) {
             position[axis] = 2.0 * static_cast<double>(params.domain_min[axis]) - position[axis];
         } else if ((walls >> (2 * axis + 1) & 1u) != 0u) {
             position[axis] = 2.0 * static_cast<double>(params.domain_max[axis]) - position[axis];
@@ -44,11 +54,32 @@ using Reflection = std::uint32_t;
 [[nodiscard]] inline glm::dvec3 reflect_velocity(Reflection walls, glm::dvec3 velocity)
 {
     for (int axis = 0; axis < 3; ++axis) {
-        if ((walls >> (2 * axis) & 3u) != 0u) {
+        if ((walls >> (2 * axis) & 3u) != 0u && !is_shifted(walls, axis)) {
             velocity[axis] = -velocity[axis];
         }
     }
     return velocity;
+}
+
+/// Twin of include/periodic.glsl: a position, back in the domain along periodic axes.
+[[nodiscard]] inline glm::dvec3 wrap_position(const shared::SphParams& params, glm::dvec3 position)
+{
+    for (int axis = 0; axis < 3; ++axis) {
+        const double min = static_cast<double>(params.domain_min[axis]);
+        const double max = static_cast<double>(params.domain_max[axis]);
+        if ((params.periodic_mask >> (2 * axis) & 1u) != 0u && position[axis] < min) {
+            position[axis] += max - min;
+        } else if ((params.periodic_mask >> (2 * axis) & 1u) != 0u && position[axis] >= max) {
+            position[axis] -= max - min;
+        }
+    }
+    return position;
+}
+
+/// Of a wall with that inward normal, m/s: only the lid moves.
+[[nodiscard]] inline glm::dvec3 wall_velocity(const shared::SphParams& params, const glm::dvec3& normal)
+{
+    return normal.y < 0.0 ? glm::dvec3(params.lid_velocity) : glm::dvec3(0.0);
 }
 
 } // namespace meltpoint::reference

@@ -8,6 +8,7 @@
 
 #include "core/error.h"
 #include "particles/sph_kernel.h"
+#include "run/plane_scene.h"
 #include "scene/materials.h"
 
 namespace meltpoint {
@@ -80,6 +81,9 @@ double fall_work(const Scene& scene, const glm::dvec3& x)
     const glm::dvec3 g(scene.physics.gravity);
     double work = 0.0;
     for (int axis = 0; axis < 3; ++axis) {
+        if (scene.domain.periodic[axis]) {
+            continue; // there is no end to it
+        }
         const double end = static_cast<double>(g[axis] < 0.0 ? scene.domain.min[axis] : scene.domain.max[axis]);
         work += std::max(g[axis] * (end - x[axis]), 0.0);
     }
@@ -121,17 +125,28 @@ double longest_step(const Scene& scene)
     return scene.solver == Solver::Pbf ? frame / scene.pbf.substeps : std::min(longest_solved_step, frame);
 }
 
-/// Walls are mirrors; a particle between two of them would need images of images without end.
+/// The borders of the axes of a scene of which periodic is so: two bits an axis.
+std::uint32_t border_mask(const Scene& scene, bool periodic)
+{
+    std::uint32_t mask = 0;
+    for (std::uint32_t axis = 0; axis < scene.domain.dimensions; ++axis) {
+        mask |= scene.domain.periodic[static_cast<int>(axis)] == periodic ? 3u << 2 * axis : 0u;
+    }
+    return mask;
+}
+
+/// Walls are mirrors; a particle between two of them, or between two images of itself, would need images of images
+/// without end.
 void check_width(const Scene& scene)
 {
     const glm::vec3 size = scene.domain.max - scene.domain.min;
     const auto least = static_cast<float>(2.0 * support_radius(scene));
-    for (int axis = 0; axis < 3; ++axis) {
-        if (scene.domain.walls && size[axis] < least) {
-            throw input_error(
-                "{}: the domain is {:.4g} m wide along {}, between walls it must be at least two support radii, "
-                "{:.4g} m (2 x particles.support_ratio x particles.spacing)",
-                scene.name, size[axis], "xyz"[axis], least);
+    for (int axis = 0; axis < static_cast<int>(scene.domain.dimensions); ++axis) {
+        const bool periodic = scene.domain.periodic[axis];
+        if ((scene.domain.walls || periodic) && size[axis] < least) {
+            throw input_error("{}: the domain is {:.4g} m wide along {}, {} it must be at least two support radii, "
+                              "{:.4g} m (2 x particles.support_ratio x particles.spacing)",
+                              scene.name, size[axis], "xyz"[axis], periodic ? "periodic" : "between walls", least);
         }
     }
 }
@@ -177,6 +192,9 @@ double expected_speed(const Scene& scene, const ParticleSet& particles)
         const double fall = std::sqrt(2.0 * fall_work(scene, glm::dvec3(particles.position[i])));
         fastest = std::max(fastest, start + fall);
     }
+    if (particles.size() > 0) {
+        fastest = std::max(fastest, static_cast<double>(glm::length(scene.domain.lid_velocity)));
+    }
     constexpr double nothing_known = 1.0;
     return fastest > 0.0 ? fastest : nothing_known;
 }
@@ -220,8 +238,9 @@ sim::SimulationSettings with_fixed_steps(sim::SimulationSettings settings)
     return settings;
 }
 
-FluidSettings fluid_settings(const Scene& scene, const ParticleSet& particles)
+FluidSettings fluid_settings(const Scene& any_scene, const ParticleSet& particles)
 {
+    const Scene scene = in_its_dimensions(any_scene);
     check_width(scene);
     FluidSettings settings;
     shared::SphParams& params = settings.simulation.params;
@@ -229,7 +248,9 @@ FluidSettings fluid_settings(const Scene& scene, const ParticleSet& particles)
     params.domain_max = scene.domain.max;
     params.support_radius = static_cast<float>(support_radius(scene));
     params.gravity = scene.physics.gravity;
-    params.wall_mask = scene.domain.walls ? 0x3fu : 0u;
+    params.wall_mask = scene.domain.walls ? border_mask(scene, false) : 0u;
+    params.periodic_mask = border_mask(scene, true);
+    params.lid_velocity = scene.domain.lid_velocity;
     params.state_equation = scene.physics.state_equation == StateEquation::Tait ? shared::STATE_EQUATION_TAIT
                                                                                 : shared::STATE_EQUATION_LINEAR;
     params.clamp_pressure = scene.physics.clamp_pressure ? 1 : 0;
@@ -240,6 +261,8 @@ FluidSettings fluid_settings(const Scene& scene, const ParticleSet& particles)
     params.wall_viscosity = scene.domain.wall_viscosity;
     params.xsph = scene.physics.xsph.value_or(scene.solver == Solver::Pbf ? 0.01f : 0.0f);
     params.vorticity_confinement = scene.physics.vorticity_confinement;
+    params.shifting =
+        scene.physics.shifting * static_cast<float>(0.5 * support_radius(scene) * speed); // a way of H/2 at that speed
     params.surface_tension = scene.physics.surface_tension;
     params.tension_threshold = scene.physics.tension_threshold;
     params.density_error = scene.solve.density_error.value_or(scene.solver == Solver::Pbf ? 0.01f : 5e-4f);
@@ -320,10 +343,13 @@ FluidSettings fluid_settings(const Scene& scene, const ParticleSet& particles)
     options.tension = scene.physics.surface_tension > 0.0f;
     options.xsph = params.xsph > 0.0f;
     options.confinement = params.vorticity_confinement > 0.0f;
-    set_kernel_scales(params, options.kernel, static_cast<double>(scene.particles.spacing));
-    params.constraint_softness = static_cast<float>(
-        static_cast<double>(scene.pbf.relaxation) *
-        lattice_response(options.kernel, support_radius(scene), static_cast<double>(scene.particles.spacing)));
+    options.shifting = params.shifting > 0.0f;
+    options.dimensions = scene.domain.dimensions;
+    set_kernel_scales(params, options.kernel, static_cast<double>(scene.particles.spacing), options.dimensions);
+    params.constraint_softness =
+        static_cast<float>(static_cast<double>(scene.pbf.relaxation) *
+                           lattice_response(options.kernel, support_radius(scene),
+                                            static_cast<double>(scene.particles.spacing), options.dimensions));
     return settings;
 }
 

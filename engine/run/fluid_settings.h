@@ -41,6 +41,6 @@ struct FluidSettings {
 /// is left to the device, with its bounds; params.dt is then what the bounds allow at the expected speed. Throws Input
 /// when dt is longer than a frame or so short that the run's steps cannot be counted, and when walls stand closer than
 /// two support radii.
-[[nodiscard]] FluidSettings fluid_settings(const Scene& scene, const ParticleSet& particles);
+[[nodiscard]] FluidSettings fluid_settings(const Scene& any_scene, const ParticleSet& particles);
 
 } // namespace meltpoint

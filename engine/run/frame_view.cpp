@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "render/camera.h"
+#include "run/plane_scene.h"
 #include "scene/materials.h"
 
 namespace meltpoint {
@@ -18,15 +19,17 @@ render::Camera scene_camera(const Scene& scene)
     const glm::vec3 size = domain.size();
     const float diagonal = glm::length(size);
     const float aspect = static_cast<float>(scene.render.width) / static_cast<float>(scene.render.height);
-    const glm::vec3 target = camera.target.value_or(domain.center() - glm::vec3(0.0f, 0.2f * size.y, 0.0f));
+    const bool flat = scene.domain.dimensions == 2;
+    const glm::vec3 middle = domain.center() - glm::vec3(0.0f, flat ? 0.0f : 0.2f * size.y, 0.0f);
+    const glm::vec3 target = camera.target.value_or(middle);
 
-    if (camera.projection == Projection::Orthographic) {
+    if (camera.projection == Projection::Orthographic || (camera.projection == Projection::Auto && flat)) {
         const glm::vec3 eye = camera.eye.value_or(target + glm::vec3(0.0f, 0.0f, diagonal));
         const float view_height = camera.view_height.value_or(1.1f * std::max(size.y, size.x / aspect));
         const float reach = glm::length(eye - target) + 2.0f * diagonal;
         return render::orthographic_camera(eye, target, camera.up, view_height, aspect, 1e-3f * diagonal, reach);
     }
-    const glm::vec3 direction = glm::normalize(glm::vec3(-0.55f, -0.45f, -1.0f));
+    const glm::vec3 direction = flat ? glm::vec3(0.0f, 0.0f, -1.0f) : glm::normalize(glm::vec3(-0.55f, -0.45f, -1.0f));
     const glm::vec3 eye =
         camera.eye.value_or(target - direction * render::framing_distance(domain, target, direction, camera.up,
                                                                           camera.field_of_view, aspect));
@@ -66,13 +69,14 @@ glm::vec2 color_range(const Scene& scene, const shared::SphParams& params, float
 
 } // namespace
 
-render::FrameSettings frame_settings(const Scene& scene, const shared::SphParams& params)
+render::FrameSettings frame_settings(const Scene& any_scene, const shared::SphParams& params)
 {
+    const Scene scene = in_its_dimensions(any_scene);
     render::FrameSettings settings;
     settings.camera = scene_camera(scene);
     settings.background = scene.render.background;
     settings.bounds = {scene.domain.min, scene.domain.max};
-    settings.box = scene.domain.walls;
+    settings.box = scene.domain.walls || glm::any(scene.domain.periodic);
     settings.color_mode = color_mode(scene.render.color);
     settings.splat_radius = scene.render.splat_radius * scene.particles.spacing;
 
@@ -85,7 +89,7 @@ render::FrameSettings frame_settings(const Scene& scene, const shared::SphParams
     }
     settings.color_range = scene.render.color_range.value_or(color_range(scene, params, heaviest));
 
-    if (scene.render.floor) {
+    if (scene.render.floor && scene.domain.dimensions == 3) {
         const glm::vec3 size = scene.domain.max - scene.domain.min;
         const glm::vec3 center = 0.5f * (scene.domain.min + scene.domain.max);
         const float width = std::max(size.x, size.z);

@@ -10,10 +10,12 @@
 #include "core/aabb.h"
 #include "core/error.h"
 #include "core/overloaded.h"
+#include "geometry/plane_sampling.h"
 #include "geometry/relaxation.h"
 #include "geometry/volume_sampling.h"
 #include "particles/boundary_distance.h"
 #include "run/placed_mesh.h"
+#include "run/plane_scene.h"
 #include "run/scene_colliders.h"
 #include "run/taken_space.h"
 #include "scene/materials.h"
@@ -41,10 +43,25 @@ VolumeSamples sample_blue_noise(const Scene& scene, std::size_t f, const Solid& 
     return sample_volume(solid, request);
 }
 
+VolumeSamples sample_plane_shape(const BodyShape& shape, double spacing)
+{
+    return std::visit(Overloaded{
+                          [&](const BlockShape& block) { return sample_rectangle(block.min, block.max, spacing); },
+                          [&](const SphereShape& ball) {
+                              return sample_disk(ball.center, static_cast<double>(ball.radius), spacing);
+                          },
+                          [](const MeshShape&) -> VolumeSamples { throw input_error("two dimensions have no meshes"); },
+                      },
+                      shape);
+}
+
 VolumeSamples sample_shape(const Scene& scene, std::size_t f, const Solid& solid)
 {
     const FluidBody& body = scene.fluids[f];
     const auto spacing = static_cast<double>(scene.particles.spacing);
+    if (scene.domain.dimensions == 2) {
+        return sample_plane_shape(body.shape, spacing);
+    }
     if (body.lattice == FluidLattice::BlueNoise) {
         return sample_blue_noise(scene, f, solid);
     }
@@ -76,6 +93,22 @@ double volume_worth_measuring(const Solid& solid, double spacing, std::uint64_t 
     const glm::dvec3 size(solid.bounds().size());
     const bool could_be_too_many = size.x * size.y * size.z / std::pow(spacing, 3) > static_cast<double>(limit);
     return could_be_too_many ? solid.volume() : 0.0;
+}
+
+/// About how many particles fill a shape of the plane.
+double expected_plane_particles(const FluidBody& body, double spacing)
+{
+    const double area =
+        std::visit(Overloaded{
+                       [](const BlockShape& block) {
+                           const glm::dvec2 size = glm::dvec2(block.max) - glm::dvec2(block.min);
+                           return size.x * size.y;
+                       },
+                       [](const SphereShape& ball) { return std::numbers::pi * std::pow(double{ball.radius}, 2); },
+                       [](const MeshShape&) { return 0.0; },
+                   },
+                   body.shape);
+    return area / (spacing * spacing);
 }
 
 /// About how many particles fill a shape; 0 for meshes that cannot need more than `limit`.
@@ -116,7 +149,7 @@ void check_inside(const Scene& scene, const VolumeSamples& samples, std::size_t 
 }
 
 /// The least distance of neighbors in a filled shape, m.
-float least_distance(const FluidBody& body, const VolumeSamples& samples, double spacing)
+float least_distance(const FluidBody& body, const VolumeSamples& samples, double spacing, std::uint32_t dimensions)
 {
     double least = samples.spacing;
     if (body.lattice == FluidLattice::BlueNoise) {
@@ -124,7 +157,7 @@ float least_distance(const FluidBody& body, const VolumeSamples& samples, double
     } else if (const auto* block = std::get_if<BlockShape>(&body.shape)) { // its spacing may differ from axis to axis
         const glm::dvec3 size = glm::dvec3(block->max) - glm::dvec3(block->min);
         const glm::dvec3 step = size / glm::max(glm::round(size / spacing), 1.0);
-        least = std::min({step.x, step.y, step.z});
+        least = dimensions == 2 ? std::min(step.x, step.y) : std::min({step.x, step.y, step.z});
     }
     return static_cast<float>(least);
 }
@@ -161,14 +194,17 @@ void add_boundary(ParticleSet& particles, const std::vector<glm::vec3>& points, 
 
 } // namespace
 
-SceneParticles make_scene_particles(const Scene& scene, std::uint64_t limit)
+SceneParticles make_scene_particles(const Scene& any_scene, std::uint64_t limit)
 {
+    const Scene scene = in_its_dimensions(any_scene);
+    const bool flat = scene.domain.dimensions == 2;
     const double spacing = static_cast<double>(scene.particles.spacing);
     double expected = 0.0;
     std::vector<std::unique_ptr<Solid>> solids; // a scan takes long to be made into one
     for (const FluidBody& body : scene.fluids) {
         solids.push_back(placed_solid(body.shape));
-        expected += expected_particles(body, *solids.back(), spacing, limit);
+        expected +=
+            flat ? expected_plane_particles(body, spacing) : expected_particles(body, *solids.back(), spacing, limit);
     }
     if (expected > static_cast<double>(limit)) {
         throw_too_many(scene, expected, limit);
@@ -177,11 +213,11 @@ SceneParticles make_scene_particles(const Scene& scene, std::uint64_t limit)
     SceneParticles result;
     const std::uint32_t kernel = scene.kernel == SphKernel::Wendland ? shared::KERNEL_WENDLAND : shared::KERNEL_PAPER;
     const double support_ratio = static_cast<double>(scene.particles.support_ratio);
-    const double distance = boundary_distance(kernel, support_ratio);
+    const double distance = boundary_distance(kernel, support_ratio, scene.domain.dimensions);
     const auto clearance = static_cast<float>(distance * spacing);
     // Fluid ends half a spacing from its outermost particles: there the surface shall be.
     const std::vector<ColliderSamples> colliders = sample_colliders(scene, (distance - 0.5 - settled) * spacing, limit);
-    TakenSpace taken;
+    TakenSpace taken(glm::vec3(scene.domain.periodic) * (scene.domain.max - scene.domain.min));
     for (std::size_t c = 0; c < colliders.size(); ++c) {
         taken.add(fmt::format("collider.{}", c), colliders[c], clearance);
     }
@@ -191,7 +227,7 @@ SceneParticles make_scene_particles(const Scene& scene, std::uint64_t limit)
         const std::string name = fmt::format("fluid.{}", f);
         VolumeSamples samples = sample_fluid(scene, f, *solids[f]);
         check_inside(scene, samples, f);
-        const Pitch pitch{.nearest = least_distance(scene.fluids[f], samples, spacing),
+        const Pitch pitch{.nearest = least_distance(scene.fluids[f], samples, spacing, scene.domain.dimensions),
                           .spacing = static_cast<float>(samples.spacing)};
         taken.clear(name, samples.positions, pitch, result.notes);
         if (samples.positions.empty()) {

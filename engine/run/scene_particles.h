@@ -28,7 +28,7 @@ struct SceneParticles {
 /// earlier in the file: such particles are left out, the others keep their masses. A mesh may be a file of points: a
 /// scan, filled as CloudSolid says. Throws Input for files that cannot be read or filled, fluid outside the domain or
 /// of which nothing is left, colliders outside the domain, and more than `limit` particles (what the device holds).
-[[nodiscard]] SceneParticles make_scene_particles(const Scene& scene, std::uint64_t limit);
+[[nodiscard]] SceneParticles make_scene_particles(const Scene& any_scene, std::uint64_t limit);
 
 /// Without the notes.
 [[nodiscard]] ParticleSet make_particles(const Scene& scene, std::uint64_t limit);

@@ -20,6 +20,21 @@ constexpr float fluid_clearance = 1.15f;
 
 } // namespace
 
+TakenSpace::TakenSpace(const glm::vec3& period) : shifts_{glm::vec3(0.0f)}
+{
+    for (int axis = 0; axis < 3; ++axis) {
+        const std::vector<glm::vec3> before = shifts_;
+        for (const float sign : {-1.0f, 1.0f}) {
+            for (glm::vec3 shift : before) {
+                shift[axis] = sign * period[axis];
+                if (period[axis] > 0.0f) {
+                    shifts_.push_back(shift);
+                }
+            }
+        }
+    }
+}
+
 void TakenSpace::add(const std::string& name, const ColliderSamples& collider, float clearance)
 {
     add({.name = name, .points = collider.points, .clearance = clearance, .solid = collider.inside});
@@ -43,12 +58,21 @@ void TakenSpace::add(Body body)
 }
 
 std::vector<std::uint8_t> TakenSpace::find_taken(const Body& body, const std::vector<glm::vec3>& points,
-                                                 float clearance)
+                                                 float clearance) const
+{
+    std::vector<std::uint8_t> taken(points.size(), 0);
+    for (const glm::vec3& shift : shifts_) {
+        mark_taken(body, points, shift, clearance, taken);
+    }
+    return taken;
+}
+
+void TakenSpace::mark_taken(const Body& body, const std::vector<glm::vec3>& points, const glm::vec3& shift,
+                            float clearance, std::vector<std::uint8_t>& taken)
 {
     const Aabb near{body.box.min - clearance, body.box.max + clearance};
-    std::vector<std::uint8_t> taken(points.size(), 0);
-    if (std::ranges::none_of(points, [&](const glm::vec3& x) { return near.contains(x); })) {
-        return taken;
+    if (std::ranges::none_of(points, [&](const glm::vec3& x) { return near.contains(x + shift); })) {
+        return;
     }
     const PointCells cells(body.points, static_cast<double>(clearance));
     const auto is_near_a_point = [&](const glm::vec3& x) {
@@ -59,16 +83,16 @@ std::vector<std::uint8_t> TakenSpace::find_taken(const Body& body, const std::ve
         return found;
     };
     parallel_for(points.size(), [&](std::size_t i) {
-        if (near.contains(points[i])) {
-            const bool inside = body.solid != nullptr && body.solid->contains(glm::dvec3(points[i]));
-            taken[i] = inside || is_near_a_point(points[i]) ? 1 : 0;
+        const glm::vec3 x = points[i] + shift;
+        if (taken[i] == 0 && near.contains(x)) {
+            const bool inside = body.solid != nullptr && body.solid->contains(glm::dvec3(x));
+            taken[i] = inside || is_near_a_point(x) ? 1 : 0;
         }
     });
-    return taken;
 }
 
 std::vector<std::uint8_t> TakenSpace::find_taken_by_fluid(const Body& body, const std::vector<glm::vec3>& points,
-                                                          const Pitch& pitch)
+                                                          const Pitch& pitch) const
 {
     const auto count = [](const std::vector<std::uint8_t>& taken) {
         return std::ranges::count(taken, 1);

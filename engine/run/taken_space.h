@@ -22,6 +22,9 @@ struct Pitch {
 /// inside each other would explode.
 class TakenSpace {
 public:
+    /// period: the domain's lengths (m) along the axes where it is periodic, 0 along the others.
+    explicit TakenSpace(const glm::vec3& period);
+
     /// A collider, and the clearance (m) that fluid at rest keeps from its boundary particles.
     void add(const std::string& name, const ColliderSamples& collider, float clearance);
 
@@ -44,16 +47,19 @@ private:
     };
 
     /// For each point 1 where it lies in the body's solid or nearer to its points than clearance (m), else 0.
-    static std::vector<std::uint8_t> find_taken(const Body& body, const std::vector<glm::vec3>& points,
-                                                float clearance);
+    [[nodiscard]] std::vector<std::uint8_t> find_taken(const Body& body, const std::vector<glm::vec3>& points,
+                                                       float clearance) const;
+    static void mark_taken(const Body& body, const std::vector<glm::vec3>& points, const glm::vec3& shift,
+                           float clearance, std::vector<std::uint8_t>& taken);
 
     /// Likewise of a fluid: 1 where two fluids of one lattice would share a place, or, where they meet in no particular
     /// way, where they would be too near to each other to start without pressure.
-    static std::vector<std::uint8_t> find_taken_by_fluid(const Body& body, const std::vector<glm::vec3>& points,
-                                                         const Pitch& pitch);
+    [[nodiscard]] std::vector<std::uint8_t> find_taken_by_fluid(const Body& body, const std::vector<glm::vec3>& points,
+                                                                const Pitch& pitch) const;
 
     void add(Body body);
 
+    std::vector<glm::vec3> shifts_; // of images in a periodic domain, the first none
     std::vector<Body> bodies_;
 };
 

@@ -35,6 +35,20 @@ struct Codec<bool> {
 };
 
 template <>
+struct Codec<glm::bvec3> {
+    static constexpr ValueKind kind = ValueKind::Boolean3;
+    static SceneValue to_value(const glm::bvec3& field)
+    {
+        return {SceneValue::Array{{field.x}, {field.y}, {field.z}}};
+    }
+    static glm::bvec3 from_value(const SceneValue& value)
+    {
+        const SceneValue::Array& values = array(value);
+        return {std::get<bool>(values[0].data), std::get<bool>(values[1].data), std::get<bool>(values[2].data)};
+    }
+};
+
+template <>
 struct Codec<std::string> {
     static constexpr ValueKind kind = ValueKind::Text;
     static SceneValue to_value(const std::string& field) { return {field}; }
@@ -241,10 +255,13 @@ std::vector<SceneKey> make_scene_keys()
 
         k("domain.min", FIELD(domain.min), "m", PLACE, "lowest corner of the box that holds everything"),
         k("domain.max", FIELD(domain.max), "m", PLACE, "highest corner"),
-        flag<Scene>("domain.walls", FIELD(domain.walls), "all six faces are walls; without, leaving the domain ends the run"),
-        k("domain.wall_viscosity", FIELD(domain.wall_viscosity), "Pa s", Range{0, 1e4}, "of fluid against walls; 0 lets it slip freely"),
+        k("domain.dimensions", FIELD(domain.dimensions), "", Range{2, 3}, "2: everything lies in the plane z = 0 and is seen from the front; a block is its rectangle in x and y, a sphere a disk, z of places means nothing, masses and forces are per meter of depth"),
+        flag<Scene>("domain.walls", FIELD(domain.walls), "all faces are walls; without, leaving the domain ends the run"),
+        k("domain.periodic", FIELD(domain.periodic), "", Range{}, "axes along which the domain has no walls but begins again: what leaves through one border comes in through the other"),
+        k("domain.wall_viscosity", FIELD(domain.wall_viscosity), "Pa s", Range{0, 1e4}, "of fluid against walls; 0 lets it slip freely, twice the fluid's holds it fast"),
+        k("domain.lid_velocity", FIELD(domain.lid_velocity), "m/s", SPEED, "of the wall at the top, which drags fluid along where domain.wall_viscosity is above 0; without y"),
 
-        k("particles.spacing", FIELD(particles.spacing), "m", Range{1e-5, 100}, "distance d of neighboring particles at rest; halving it makes eight times as many"),
+        k("particles.spacing", FIELD(particles.spacing), "m", Range{1e-5, 100}, "distance d of neighboring particles at rest; halving it makes eight times as many, in two dimensions four times"),
         k("particles.support_ratio", FIELD(particles.support_ratio), "", Range{1.25, 4}, "support radius H of the kernels, in spacings"),
 
         k("physics.gravity", FIELD(physics.gravity), "m/s^2", Range{-1e4, 1e4}, "acceleration of everything"),
@@ -253,6 +270,7 @@ std::vector<SceneKey> make_scene_keys()
                       "explicit: a force like the others, which makes thick fluids take tiny steps (Mueller et al. 2003); implicit: solved for at the end of each step (Weiler et al. 2018), which bounds no step and leaves rotation alone; auto: implicit where the explicit one would shorten the steps"),
         k("physics.xsph", FIELD(physics.xsph), "", Range{0, 1}, "part of the difference between a particle's velocity and those around it that a step takes away (Monaghan 1989, Schechter & Bridson 2012); auto: 0.01 of pbf, else 0"),
         k("physics.vorticity_confinement", FIELD(physics.vorticity_confinement), "m/s", Range{0, 100}, "spins up vortices that the resolution wears away (Macklin & Mueller 2013): acceleration where vorticity falls off, over vorticity; a look, it adds energy and keeps no momentum"),
+        k("physics.shifting", FIELD(physics.shifting), "", Range{0, 100}, "lets particles diffuse to where there are fewer (Lind et al. 2012); in units of H/2 times the speed expected of this scene, 5 keeps closed flows even where physics.clamp_pressure is off; not for free surfaces, nor for pbf"),
         k("physics.surface_tension", FIELD(physics.surface_tension), "N/m", Range{0, 1e4}, "of the model of Mueller et al. 2003: a look, not a measured force"),
         k("physics.tension_threshold", FIELD(physics.tension_threshold), "", Range{0, 100}, "on the color gradient times H: particles below it are inside and feel no tension"),
         choice<Scene>("physics.state_equation", FIELD(physics.state_equation), {{"linear", StateEquation::Linear}, {"tait", StateEquation::Tait}},
@@ -278,10 +296,10 @@ std::vector<SceneKey> make_scene_keys()
         k("time.frame_rate", FIELD(time.frame_rate), "1/s", Range{1e-2, 1e6}, "frames in a second of simulated time"),
         k("time.frames", FIELD(time.frames), "", Range{1, 1e6}, "number of frames, frame 0 (the initial state) included"),
 
-        choice<Scene>("camera.projection", FIELD(camera.projection), {{"perspective", Projection::Perspective}, {"orthographic", Projection::Orthographic}},
-                      "orthographic: a 2D view without foreshortening"),
+        choice<Scene>("camera.projection", FIELD(camera.projection), {{"auto", Projection::Auto}, {"perspective", Projection::Perspective}, {"orthographic", Projection::Orthographic}},
+                      "orthographic: a 2D view without foreshortening; auto: perspective, in two dimensions orthographic"),
         k("camera.eye", FIELD(camera.eye), "m", PLACE, "where the camera is; auto: where it sees the whole domain"),
-        k("camera.target", FIELD(camera.target), "m", PLACE, "what it looks at; auto: the center of the domain's lower half"),
+        k("camera.target", FIELD(camera.target), "m", PLACE, "what it looks at; auto: the center of the domain's lower half, in two dimensions the domain's center"),
         k("camera.up", FIELD(camera.up), "", PLACE, "the direction that is up in the picture; of any length but 0"),
         k("camera.field_of_view", FIELD(camera.field_of_view), "degrees", Range{1, 170}, "vertical, of the perspective camera"),
         k("camera.view_height", FIELD(camera.view_height), "m", Range{1e-4, 1e5}, "of the orthographic camera; auto: the domain's height"),
@@ -292,7 +310,7 @@ std::vector<SceneKey> make_scene_keys()
                       "what the colors show"),
         flag<Scene>("render.legend", FIELD(render.legend), "a color scale, drawn in every mode but material"),
         k("render.color_range", FIELD(render.color_range), "kg/m^3, m/s or Pa", Range{-1e12, 1e12}, "[lowest, highest] of the color scale; auto: fixed, from the scene"),
-        flag<Scene>("render.floor", FIELD(render.floor), "a ground plane at the domain's lowest face"),
+        flag<Scene>("render.floor", FIELD(render.floor), "a ground plane at the domain's lowest face; none in two dimensions"),
         k("render.splat_radius", FIELD(render.splat_radius), "spacings", Range{0.1, 5}, "of a fluid particle's sphere"),
         k("render.background", FIELD(render.background), "linear RGB", UNIT, "color behind everything"),
     };

@@ -22,8 +22,11 @@ enum class ViscosityModel { Auto, Explicit, Implicit };
 struct DomainSettings {
     glm::vec3 min{-1.0f, 0.0f, -1.0f}; ///< m
     glm::vec3 max{1.0f, 2.0f, 1.0f};   ///< m
-    bool walls = true;                 ///< all six faces are walls; without, leaving the domain ends the run
+    std::uint32_t dimensions = 3;      ///< 2: everything lies in the plane z = 0, where z of places means nothing
+    bool walls = true;                 ///< all faces are walls; without, leaving the domain ends the run
+    glm::bvec3 periodic{false};        ///< axes that begin again where they end, instead of walls
     float wall_viscosity = 0.0f;       ///< Pa s; 0 is free slip
+    glm::vec3 lid_velocity{0.0f};      ///< m/s, of the wall at max.y; along it
 };
 
 /// How finely fluid is divided.
@@ -39,6 +42,7 @@ struct FluidPhysics {
     ViscosityModel viscosity_model = ViscosityModel::Auto;
     std::optional<float> xsph;          ///< part of the differences that a step takes away; auto: 0.01 of pbf, else 0
     float vorticity_confinement = 0.0f; ///< epsilon of Macklin & Mueller 2013, m/s
+    float shifting = 0.0f;              ///< diffusion coefficient in H/2 times the speed expected of the scene
     float surface_tension = 0.0f;       ///< N/m, the paper's model (a look)
     float tension_threshold = 0.5f;     ///< on |n| H
     StateEquation state_equation = StateEquation::Tait;
@@ -132,13 +136,13 @@ struct SurfaceBody {
     glm::vec3 color{0.72f, 0.55f, 0.38f};        ///< linear RGB
 };
 
-enum class Projection { Perspective, Orthographic };
+enum class Projection { Auto, Perspective, Orthographic };
 
 /// From where a frame is seen.
 struct CameraSettings {
-    Projection projection = Projection::Perspective;
-    std::optional<glm::vec3> eye;    ///< m; auto: frames the domain
-    std::optional<glm::vec3> target; ///< m; auto: center of the domain's lower half
+    Projection projection = Projection::Auto; ///< auto: perspective, in two dimensions orthographic
+    std::optional<glm::vec3> eye;             ///< m; auto: frames the domain
+    std::optional<glm::vec3> target; ///< m; auto: center of the domain's lower half; in two dimensions its center
     glm::vec3 up{0.0f, 1.0f, 0.0f};
     float field_of_view = 40.0f;      ///< degrees, vertical
     std::optional<float> view_height; ///< m, of the orthographic view; auto: the domain's

@@ -33,6 +33,7 @@ public:
     {
         check_keys();
         check_domain();
+        check_periodic();
         check_time();
         check_camera();
         check_render();
@@ -40,6 +41,9 @@ public:
         check_plates("collider", scene_.colliders);
         check_plates("surface", scene_.surfaces);
         check_materials();
+        if (is_flat()) {
+            check_plane();
+        }
     }
 
 private:
@@ -75,21 +79,33 @@ private:
         });
     }
 
+    [[nodiscard]] bool is_flat() const { return scene_.domain.dimensions == 2; }
+
+    /// An extent; in two dimensions without that along z, which means nothing there: as long as the one along x.
+    [[nodiscard]] glm::vec3 extent_of(const glm::vec3& min, const glm::vec3& max) const
+    {
+        const glm::vec3 size = max - min;
+        return is_flat() ? glm::vec3(size.x, size.y, size.x) : size;
+    }
+
+    [[nodiscard]] std::string_view axes() const { return is_flat() ? "x and y" : "x, y and z"; }
+
     void check_box(const std::string& prefix, const glm::vec3& min, const glm::vec3& max) const
     {
-        if (!glm::all(glm::lessThan(min, max))) {
-            fail(prefix + "max", "is {}, but must be above {}min = {} in x, y and z", text(max), prefix, text(min));
+        if (!glm::all(glm::greaterThan(extent_of(min, max), glm::vec3(0.0f)))) {
+            fail(prefix + "max", "is {}, but must be above {}min = {} in {}", text(max), prefix, text(min), axes());
         }
     }
 
     /// A block, or a plate: one that is flat along one axis.
     void check_plate(const std::string& prefix, const BlockShape& block) const
     {
-        const glm::vec3 size = block.max - block.min;
+        glm::vec3 size = block.max - block.min;
+        size.z = is_flat() ? 1.0f : size.z;
         const int flat = glm::compAdd(glm::ivec3(glm::equal(size, glm::vec3(0.0f))));
         if (!glm::all(glm::greaterThanEqual(size, glm::vec3(0.0f))) || flat > 1) {
-            fail(prefix + "max", "is {}, but must be above {}min = {} in x, y and z (equal in one of them: a plate)",
-                 text(block.max), prefix, text(block.min));
+            fail(prefix + "max", "is {}, but must be above {}min = {} in {} (equal in one of them: a plate)",
+                 text(block.max), prefix, text(block.min), axes());
         }
     }
 
@@ -97,11 +113,47 @@ private:
     {
         const DomainSettings& domain = scene_.domain;
         check_box("domain.", domain.min, domain.max);
-        const glm::vec3 size = domain.max - domain.min;
+        const glm::vec3 size = extent_of(domain.min, domain.max);
         const float smallest = std::min({size.x, size.y, size.z});
         if (scene_.particles.spacing > smallest) {
             fail("particles.spacing", "is {} m, but must be at most the domain's smallest extent, {} m",
                  scene_.particles.spacing, smallest);
+        }
+    }
+
+    void check_periodic() const
+    {
+        const DomainSettings& domain = scene_.domain;
+        const glm::vec3 size = domain.max - domain.min;
+        const float least = 2.0f * scene_.particles.support_ratio * scene_.particles.spacing;
+        for (int axis = 0; axis < (is_flat() ? 2 : 3); ++axis) {
+            if (domain.periodic[axis] && !(size[axis] >= least)) {
+                fail("domain.periodic",
+                     "has {}, along which the domain is {} m long, but it must be at least two "
+                     "support radii, {} m (2 x particles.support_ratio x particles.spacing)",
+                     "xyz"[axis], size[axis], least);
+            }
+        }
+        for (std::size_t i = 0; i < scene_.fluids.size(); ++i) {
+            if (glm::any(domain.periodic) && scene_.fluids[i].lattice != FluidLattice::Cubic) {
+                fail(fmt::format("fluid.{}.lattice", i),
+                     "is \"blue-noise\", which knows no domain.periodic: it must be "
+                     "\"cubic\" there");
+            }
+        }
+        if (is_flat() && domain.periodic.z) {
+            fail("domain.periodic", "has z, which means nothing where domain.dimensions is 2");
+        }
+        if (domain.lid_velocity.y != 0.0f) {
+            fail("domain.lid_velocity", "is {}, but must have no y: a lid moves along itself",
+                 text(domain.lid_velocity));
+        }
+        if (domain.lid_velocity != glm::vec3(0.0f) && (!domain.walls || domain.periodic.y)) {
+            fail("domain.lid_velocity", "is {}, but there is no wall at the top", text(domain.lid_velocity));
+        }
+        if (scene_.physics.shifting > 0.0f && scene_.solver == Solver::Pbf) {
+            fail("physics.shifting", "is {}, but must be 0 of solver \"pbf\", which moves particles itself",
+                 scene_.physics.shifting);
         }
     }
 
@@ -171,6 +223,49 @@ private:
         }
     }
 
+    /// What a plane has no room for.
+    void check_plane() const
+    {
+        constexpr std::string_view flat = "where domain.dimensions is 2";
+        if (scene_.domain.lid_velocity.z != 0.0f) {
+            fail("domain.lid_velocity", "is {}, but must have no z {}", text(scene_.domain.lid_velocity), flat);
+        }
+        if (scene_.physics.gravity.z != 0.0f) {
+            fail("physics.gravity", "is {}, but must have no z {}", text(scene_.physics.gravity), flat);
+        }
+        if (!scene_.surfaces.empty()) {
+            fail("surface", "is there, but there are no [[surface]]s {}", flat);
+        }
+        for (std::size_t i = 0; i < scene_.fluids.size(); ++i) {
+            const FluidBody& fluid = scene_.fluids[i];
+            const std::string prefix = fmt::format("fluid.{}.", i);
+            check_plane_shape(prefix, fluid.shape);
+            if (fluid.lattice != FluidLattice::Cubic) {
+                fail(prefix + "lattice", "is \"blue-noise\", but must be \"cubic\" (then a square one) {}", flat);
+            }
+            if (fluid.velocity.z != 0.0f) {
+                fail(prefix + "velocity", "is {}, but must have no z {}", text(fluid.velocity), flat);
+            }
+            if (fluid.velocity_gradient[0].z != 0.0f || fluid.velocity_gradient[1].z != 0.0f) {
+                fail(prefix + "velocity_gradient", "leads out of the plane in its third row, which must be zero {}",
+                     flat);
+            }
+            if (fluid.spin.x != 0.0f || fluid.spin.y != 0.0f) {
+                fail(prefix + "spin", "is {}, but must be about z alone {}", text(fluid.spin), flat);
+            }
+        }
+        for (std::size_t i = 0; i < scene_.colliders.size(); ++i) {
+            check_plane_shape(fmt::format("collider.{}.", i), scene_.colliders[i].shape);
+        }
+    }
+
+    void check_plane_shape(const std::string& prefix, const BodyShape& shape) const
+    {
+        if (std::holds_alternative<MeshShape>(shape)) {
+            fail(prefix + "shape", "is \"mesh\", but must be \"block\" or \"sphere\" where domain.dimensions is 2");
+        }
+    }
+
     void check_materials() const
     {
         const SceneMaterials materials = scene_materials(scene_);
@@ -191,7 +286,7 @@ private:
     void check_shape(const std::string& prefix, const BlockShape& block) const
     {
         check_box(prefix, block.min, block.max);
-        check_thickness(prefix + "max", block.max - block.min);
+        check_thickness(prefix + "max", extent_of(block.min, block.max));
         check_inside(prefix + "min", block.min, block.max);
     }
 
@@ -217,7 +312,10 @@ private:
     {
         const DomainSettings& domain = scene_.domain;
         const glm::vec3 slack = ROUNDING * (domain.max - domain.min);
-        if (glm::any(glm::lessThan(min, domain.min - slack)) || glm::any(glm::greaterThan(max, domain.max + slack))) {
+        const glm::bvec3 matters(true, true, !is_flat());
+        const glm::bvec3 below = glm::lessThan(min, domain.min - slack);
+        const glm::bvec3 above = glm::greaterThan(max, domain.max + slack);
+        if (glm::any(below && matters) || glm::any(above && matters)) {
             fail(key, "puts the fluid in {} to {}, but it must lie inside the domain, {} to {}", text(min), text(max),
                  text(domain.min), text(domain.max));
         }

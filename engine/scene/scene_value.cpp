@@ -165,6 +165,8 @@ bool accepts(const ValueRule& rule, const SceneValue& value)
     switch (rule.kind) {
     case ValueKind::Boolean:
         return std::holds_alternative<bool>(value.data);
+    case ValueKind::Boolean3:
+        return is_array_of(value, 3, [](const SceneValue& each) { return std::holds_alternative<bool>(each.data); });
     case ValueKind::Integer: {
         const auto* integer = std::get_if<std::int64_t>(&value.data);
         return integer != nullptr && static_cast<double>(*integer) >= rule.min &&
@@ -196,6 +198,9 @@ std::string describe(const ValueRule& rule, std::string_view unit)
     switch (rule.kind) {
     case ValueKind::Boolean:
         text = "true or false";
+        break;
+    case ValueKind::Boolean3:
+        text = "[x, y, z], each true or false";
         break;
     case ValueKind::Integer:
         text = "a whole number " + range;

@@ -26,7 +26,7 @@ struct SceneValue {
 /// The value in TOML, on one line. Numbers that are floats in disguise are written with a float's shortest digits.
 std::string to_toml(const SceneValue& value);
 
-enum class ValueKind { Boolean, Integer, Number, Vector2, Vector3, Matrix3, Text, Choice };
+enum class ValueKind { Boolean, Boolean3, Integer, Number, Vector2, Vector3, Matrix3, Text, Choice };
 
 /// What a key accepts. Plain data, so that checking, error messages and the documentation cannot disagree.
 struct ValueRule {

@@ -60,6 +60,9 @@ void Dfsph::record_step(gpu::Commands& commands, const Fluid& fluid, std::uint32
     if (fluid.boundary_forces != nullptr) {
         fluid.boundary_forces->record_impulses(commands, fluid, warm_start_);
     }
+    if (fluid.shifting != nullptr) {
+        fluid.shifting->record(commands, fluid.kernels, fluid.params, fluid.particles, fluid.grid);
+    }
     record_drift(commands, fluid, step);
 }
 

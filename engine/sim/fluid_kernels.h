@@ -15,13 +15,15 @@ struct FluidOptions {
     bool tension = false;
     bool xsph = false;
     bool confinement = false;
+    bool shifting = false;
     bool implicit_viscosity = false; ///< solved for (sim/implicit_viscosity)
     bool mixed_viscosity = false;    ///< the fluids' materials differ in viscosity
+    std::uint32_t dimensions = 3;    ///< or 2
     std::uint32_t tile = 0;          ///< particles an invocation, 1 to 16; 0 chooses for the device
 };
 
 /// Values of the specialization constants that shaders/ agree on. Throws Input when options.tile is out of range.
-[[nodiscard]] std::array<gpu::SpecConstant, 7> fluid_constants(const gpu::DeviceInfo& device,
+[[nodiscard]] std::array<gpu::SpecConstant, 8> fluid_constants(const gpu::DeviceInfo& device,
                                                                const FluidOptions& options);
 
 /// 4 on software devices, where loading a candidate costs more than using it; 1 on GPUs.

@@ -79,8 +79,7 @@ Simulation::Simulation(const gpu::Context& context, const ParticleSet& particles
       params_buffer_(gpu::make_buffer<shared::SphParams>(context, 1, "params")),
       status_(gpu::make_buffer<shared::Status>(context, 1, "status")),
       readback_(context, sizeof(Readback), gpu::MemoryUse::Readback, "readback"), time_(context, params_),
-      vorticity_(context, settings.options, params_.particle_count),
-      commands_(std::make_unique<gpu::Commands>(context))
+      vorticity_(context, settings.options, params_.particle_count), commands_(std::make_unique<gpu::Commands>(context))
 {
     upload(context, particles, particles_);
     gpu::upload<shared::SphParams>(context, params_buffer_, {&params_, 1});
@@ -89,6 +88,9 @@ Simulation::Simulation(const gpu::Context& context, const ParticleSet& particles
     if (settings.options.implicit_viscosity) {
         viscosity_.emplace(context, settings.options, params_);
         viscosity_->record_start(*commands_);
+    }
+    if (settings.options.shifting) {
+        shifting_.emplace(context, settings.options);
     }
     solver_->record_start(*commands_, fluid());
     commands_->submit();
@@ -162,7 +164,8 @@ void Simulation::check_status(const shared::Status& status) const
 
 std::uint64_t Simulation::device_bytes() const
 {
-    std::uint64_t sum = solver_->device_bytes() + vorticity_.device_bytes() + (viscosity_ ? viscosity_->device_bytes() : 0);
+    std::uint64_t sum =
+        solver_->device_bytes() + vorticity_.device_bytes() + (viscosity_ ? viscosity_->device_bytes() : 0);
     sum += boundary_forces_ != nullptr ? boundary_forces_->reactions().size() : 0;
     for (const gpu::Buffer* buffer : {&particles_.id,
                                       &particles_.attributes,
@@ -293,7 +296,7 @@ Simulation::BoundaryForceMeans Simulation::take_boundary_forces()
 
 void Simulation::enable_timings()
 {
-    const std::uint32_t scopes = solver_->scopes() + vorticity_.scopes() + (viscosity_ ? 1 : 0);
+    const std::uint32_t scopes = solver_->scopes() + vorticity_.scopes() + (viscosity_ ? 1 : 0) + (shifting_ ? 1 : 0);
     commands_ = std::make_unique<gpu::Commands>(*context_, max_steps_per_submission * scopes);
 }
 

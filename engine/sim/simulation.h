@@ -123,7 +123,8 @@ private:
                 time_,
                 vorticity_,
                 boundary_forces_.get(),
-                viscosity_ ? &*viscosity_ : nullptr};
+                viscosity_ ? &*viscosity_ : nullptr,
+                shifting_ ? &*shifting_ : nullptr};
     }
     /// Of shared::Solve at a buffer's start, over the steps since `taken_at`, which is set to the present one.
     std::vector<SolveStatistics> take_statistics(const gpu::Buffer& solves, std::size_t count, std::uint64_t& taken_at);
@@ -134,6 +135,7 @@ private:
     FluidKernels kernels_;
     std::unique_ptr<Solver> solver_;
     std::optional<ImplicitViscosity> viscosity_;
+    std::optional<Shifting> shifting_;
     ParticleBuffers particles_;
     NeighborGrid grid_;
     gpu::Buffer params_buffer_;

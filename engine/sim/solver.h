@@ -10,6 +10,7 @@
 #include "sim/boundary_forces.h"
 #include "sim/fluid_kernels.h"
 #include "sim/neighbor_grid.h"
+#include "sim/shifting.h"
 #include "sim/time_control.h"
 #include "sim/vorticity.h"
 
@@ -28,6 +29,7 @@ struct Fluid {
     Vorticity& vorticity;
     BoundaryForces* boundary_forces = nullptr; ///< null where nobody measures them
     ImplicitViscosity* viscosity = nullptr;    ///< null where viscosity is a force like the others
+    const Shifting* shifting = nullptr;        ///< null where particles stay where their velocities lead them
 };
 
 /// Where, in a buffer of shared::Solve[SOLVES], the workgroups of a solve's next iteration are.

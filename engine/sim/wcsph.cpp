@@ -99,6 +99,9 @@ void Wcsph::record_step(gpu::Commands& commands, const Fluid& fluid, std::uint32
         fluid.viscosity->record_solve(commands, fluid);
         record_reactions(commands, fluid, true);
     }
+    if (fluid.shifting != nullptr) {
+        fluid.shifting->record(commands, fluid.kernels, fluid.params, fluid.particles, fluid.grid);
+    }
 }
 
 } // namespace meltpoint::sim

@@ -4,6 +4,7 @@
 #define IMAGE_WALK_GLSL
 #include "include/candidate.glsl"
 #include "include/neighbor_walk.glsl"
+#include "include/periodic.glsl"
 #include "include/walls.glsl"
 
 const int TOGETHER = -1;
@@ -21,19 +22,46 @@ struct Tile {
 
 Walk begin_walk(vec3 x[TILE]) { return begin_walk(x, params.domain_min, params.support_radius, params.grid_size); }
 
+// The nearer border along each axis, wall or periodic: a box is at least two support radii wide, so the other is out of reach.
+Walls nearest_borders(vec3 x)
+{
+    return nearest_walls(x, params.domain_min, params.domain_max, params.wall_mask | params.periodic_mask);
+}
+
+// Turns a vector into that of the image, or back: -1 along the axes that the image reflects, 1 along the others.
+vec3 image_signs(uint image)
+{
+    return mix(mix(vec3(1.0), vec3(-1.0), image_axes(image)), vec3(1.0), periodic_axes());
+}
+
+// What the lid's velocity adds to that of the fluid beyond the walls, times the half spaces' integrals.
+vec3 lid_share(Walls walls, vec3 half_spaces) { return walls.normal.y < 0.0 ? half_spaces.y * params.lid_velocity : vec3(0.0); }
+
+// Whether a position has such an image beyond these borders, and where it is.
+bool has_image(uint image, Walls borders)
+{
+    return all(lessThan(mix(vec3(0.0), borders.distance, image_axes(image)), vec3(params.support_radius)));
+}
+
+vec3 image_position(vec3 x, uint image, Walls borders)
+{
+    vec3 reflected = 2.0 * borders.plane - x;
+    vec3 shifted = x + borders.normal * (params.domain_max - params.domain_min);
+    return mix(x, mix(reflected, shifted, periodic_axes()), image_axes(image));
+}
+
 // `own`: the positions and weights of its particles.
 Tile load_tile(uint invocation, out vec4 own[TILE])
 {
     Tile tile;
     tile.first = invocation * TILE;
     tile.last = min(tile.first + TILE, params.particle_count) - 1u;
-    uvec3 near_walls = uvec3(0u); // axes along which at least one has a wall within its support
+    uvec3 near_walls = uvec3(0u); // axes along which at least one has a border within its support
     vec3 x[TILE];
     [[unroll]] for (uint k = 0u; k < TILE; ++k) {
         own[k] = load_candidate(position, min(tile.first + k, tile.last));
         x[k] = own[k].xyz;
-        Walls walls = nearest_walls(x[k], params.domain_min, params.domain_max, params.wall_mask);
-        near_walls |= uvec3(lessThan(walls.distance, vec3(params.support_radius)));
+        near_walls |= uvec3(lessThan(nearest_borders(x[k]).distance, vec3(params.support_radius)));
     }
     tile.images = 1u;
     tile.images |= near_walls.x * tile.images << 1u;
@@ -64,9 +92,9 @@ uint next_image(inout Tile tile)
 void image_positions(Tile tile, vec4 own[TILE], uint image, out vec3 x[TILE])
 {
     [[unroll]] for (uint k = 0u; k < TILE; ++k) {
-        Walls walls = nearest_walls(own[k].xyz, params.domain_min, params.domain_max, params.wall_mask);
-        x[k] = image_position(own[k].xyz, image, walls, params.support_radius);
-        x[k] = tile.walks == TOGETHER || tile.walks == int(k) ? x[k] : NOWHERE;
+        Walls borders = nearest_borders(own[k].xyz);
+        bool walks = tile.walks == TOGETHER || tile.walks == int(k);
+        x[k] = walks && has_image(image, borders) ? image_position(own[k].xyz, image, borders) : NOWHERE;
     }
 }
 

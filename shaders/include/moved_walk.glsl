@@ -15,6 +15,14 @@ void load_moved(Tile tile, out vec4 now[TILE])
     }
 }
 
+// The images, beyond the borders that were near when the grid was made, of where the particles are now.
+void moved_image_positions(vec4 own[TILE], vec4 now[TILE], uint image, out vec3 x[TILE])
+{
+    [[unroll]] for (uint k = 0u; k < TILE; ++k) {
+        x[k] = image_position(now[k].xyz, image, nearest_borders(own[k].xyz));
+    }
+}
+
 // Whether they were neighbors when the grid was made.
 bool were_neighbors(vec3 a, vec3 b)
 {

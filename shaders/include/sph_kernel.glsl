@@ -5,6 +5,7 @@
 #include "shared/sph_params.h"
 
 layout(constant_id = 0) const uint KERNEL = KERNEL_PAPER;
+layout(constant_id = 10) const uint DIMENSIONS = 3u;
 
 // What the pairs of one pass share.
 struct KernelSize {
@@ -64,11 +65,11 @@ vec2 color_shapes(float r2, KernelSize size)
     if (KERNEL == KERNEL_PAPER) {
         float q2 = r2 * size.inverse_h2;
         float x = max(1.0 - q2, 0.0);
-        return vec2(x * x * size.inverse_h, -x * (3.0 - 7.0 * q2));
+        return vec2(x * x * size.inverse_h, -x * (DIMENSIONS == 3u ? 3.0 - 7.0 * q2 : 1.0 - 3.0 * q2));
     }
     float q = min(sqrt(r2) * size.inverse_h, 1.0);
     float u = 1.0 - q;
-    return vec2(u * u * u * size.inverse_h, -u * u * (1.0 - 2.0 * q));
+    return vec2(u * u * u * size.inverse_h, -u * u * (1.0 - (DIMENSIONS == 3u ? 2.0 : 2.5) * q));
 }
 
 #endif

@@ -81,6 +81,9 @@ void add_viscous_forces(vec4 own[TILE], Tile tile, out ViscousForce total[TILE])
         vec3 beyond = half_space_viscosity(walls.distance, params.support_radius); // zero beyond the support
         float drag = params.wall_viscosity * params.viscosity_scale * (beyond.x + beyond.y + beyond.z);
         total[k].force -= drag * signs * p[k];
+        if (VISCOUS_BLOCKS) { // the matrix itself knows no lid
+            total[k].force += params.wall_viscosity * params.viscosity_scale * lid_share(walls, beyond);
+        }
         total[k].diagonal += drag;
     }
 }

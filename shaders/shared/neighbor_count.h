@@ -6,7 +6,7 @@
 SHARED_BEGIN
 
 struct NeighborCount {
-    uint neighbors;  // without the particle itself and without images in walls
+    uint neighbors;  // without the particle itself and without images in walls; across periodic borders
     uint id_sum;     // of their ids, modulo 2^32: with the count, a fingerprint of the set
     uint coincident; // those so near that the pair has no direction
 };

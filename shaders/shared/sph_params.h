@@ -9,12 +9,16 @@
 // is 1. The energy sum_i m_i e(rho_i) is that of the fluid alone, so the pressure force, its exact derivative, is
 // -(p_i V_i^2 s_j + p_j V_j^2 s_i) grad W_ij with p_b = 0.
 //
+// Two dimensions: all particles lie in one plane, z = 0, which no force leaves by itself. Volumes are areas, masses are
+// kg per meter of depth, and the kernel scales are those of the plane; units below are those of three dimensions.
+//
 // Lattice moments: sums over a lattice of the scene's spacing miss the continuum integrals by some percent, so every kernel
 // scale below is already divided by its moment on that lattice (README, "Moments").
 //
 // Walls are mirrors: a particle nearer to walls than the support radius also meets the images of its neighbors and of itself
 // behind them, reflected across one, two or three walls, with their density, pressure and reflected velocity. So a wall
 // supplies density and pressure, conserves energy and lets fluid slip; a lattice half a spacing off a wall does not notice it.
+// Along a periodic axis the images are the particles near the other border, a domain's length away and as they are.
 #ifndef MELTPOINT_SHARED_SPH_PARAMS_H
 #define MELTPOINT_SHARED_SPH_PARAMS_H
 #include "prelude.h"
@@ -35,6 +39,10 @@ SHARED_CONSTANT uint MAX_MATERIALS = 64u;
 
 // Pairs closer than this fraction of the support radius have no direction: zero gradient, counted in NeighborCount.
 SHARED_CONSTANT float COINCIDENT_RATIO = 1e-6f;
+
+// Particle shifting: how much stronger near particles part, and the farthest that a step shifts one, in spacings.
+SHARED_CONSTANT float SHIFT_NEAR = 0.2f;
+SHARED_CONSTANT float SHIFT_CAP = 0.1f;
 
 // A vorticity that rises by less than this part of itself in a support radius has no direction to confine it in.
 SHARED_CONSTANT float FLAT_VORTICITY = 1e-3f;
@@ -57,6 +65,9 @@ struct SphParams {
     uint particle_count;
     uvec3 grid_size;      // cells along x, y, z; cell index = (z * grid_size.y + y) * grid_size.x + x
     uint wall_mask;       // bit 2a: wall at domain_min[a], bit 2a + 1: wall at domain_max[a]
+
+    uint periodic_mask;   // bits as those of wall_mask: both borders of each periodic axis
+    vec3 lid_velocity;    // m/s, of the wall at domain_max.y
 
     uint state_equation;       // STATE_EQUATION_*
     uint clamp_pressure;       // 1: p = max(p, 0)
@@ -102,6 +113,8 @@ struct SphParams {
     // Of any solver, 0 for none.
     float xsph;                  // part of the difference to the velocities around that a step takes away
     float vorticity_confinement; // epsilon, m/s
+    float shifting;              // D of shift.comp, m^2/s
+    float shifting_scale;        // 1 / W(d), W without density_scale
 
     // Where the device chooses dt (time_step.comp): cfl_length / (cfl_speed + the fastest particle's speed).
     uint adaptive_dt;
@@ -113,6 +126,7 @@ struct SphParams {
 
     float speed_limit; // m/s: faster particles are FAULT_TOO_FAST
     float spacing;     // d, m, of particles at rest
+    float lattice_volume; // d^3, m^3; in two dimensions d^2, m^2
 
     float rest_density[MAX_MATERIALS]; // kg/m^3, of fluids
     float viscosity[MAX_MATERIALS];    // dynamic, mu, Pa s, of fluids

@@ -47,13 +47,12 @@ void main()
         }
     }
 
-    float d3 = params.spacing * params.spacing * params.spacing;
     [[unroll]] for (uint k = 0u; k < TILE; ++k) {
         uint i = tile.first + k;
         if (i > tile.last) {
             break;
         }
-        float weight = is_boundary(attributes[i]) ? 1.0 / (d3 * params.density_scale * sum[k]) : own[k].w;
+        float weight = is_boundary(attributes[i]) ? 1.0 / (params.lattice_volume * params.density_scale * sum[k]) : own[k].w;
         weighted[i] = vec4(own[k].xyz, weight);
     }
 }

@@ -17,6 +17,17 @@ layout(set = 0, binding = 5, scalar) writeonly buffer Counts { NeighborCount cou
 
 #include "include/image_walk.glsl"
 
+// Of the numbers of images, a bit each, those that are only shifted along periodic axes.
+uint shifted_images()
+{
+    uvec3 periodic = uvec3(periodic_axes());
+    uint images = 1u; // themselves
+    images |= periodic.x * images << 1u;
+    images |= periodic.y * images << 2u;
+    images |= periodic.z * images << 4u;
+    return images;
+}
+
 void main()
 {
     if (invocation_index() * TILE >= params.particle_count) {
@@ -24,7 +35,7 @@ void main()
     }
     vec4 own[TILE];
     Tile tile = load_tile(invocation_index(), own);
-    tile.images = 1u; // themselves
+    tile.images &= shifted_images(); // no reflections
     NeighborCount found[TILE];
     [[unroll]] for (uint k = 0u; k < TILE; ++k) {
         found[k] = NeighborCount(0u, 0u, 0u);

@@ -101,8 +101,7 @@ void main()
         uint material = particle_material(attributes[i]);
         float mass = load_candidate(velocity, i).w;
         float rho = mass * params.density_scale * sum[k];
-        float d3 = params.spacing * params.spacing * params.spacing;
-        float volume = boundary ? own[k].w * d3 : mass / rho;
+        float volume = boundary ? own[k].w * params.lattice_volume : mass / rho;
         float viscosity = boundary ? params.friction[material] : params.viscosity[material];
         vec4 its_interaction = vec4(0.0, volume, params.viscosity_scale * viscosity * volume, 0.0);
         if (SOLVED_PRESSURE) {

@@ -20,6 +20,7 @@ layout(set = 0, binding = 7, scalar) writeonly buffer Pressure { float pressure[
 layout(set = 0, binding = 8, scalar) buffer StatusBuffer { Status status; };
 
 #include "include/contact.glsl"
+#include "include/periodic.glsl"
 #include "include/watch.glsl"
 
 void main()
@@ -33,7 +34,7 @@ void main()
         return;
     }
     vec3 v = with_contact(position[i].xyz, velocity[i].xyz, params.dt);
-    vec3 x = position[i].xyz + params.dt * v;
+    vec3 x = wrapped(position[i].xyz + params.dt * v);
     velocity[i].xyz = v;
     position[i].xyz = x;
     float volume = interaction[i].y;

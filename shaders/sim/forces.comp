@@ -32,17 +32,17 @@ layout(set = 0, binding = 9, scalar) writeonly buffer Acceleration { vec4 accele
 #include "include/mixed_viscosity.glsl"
 #include "include/neighbor_bits.glsl"
 
-// Friction against walls at rest, and the contact spring.
+// Friction against walls, and the contact spring.
 vec3 wall_acceleration(vec3 x, vec3 v, float rho)
 {
     Walls walls = nearest_walls(x, params.domain_min, params.domain_max, params.wall_mask);
     vec3 spring = params.contact_stiffness * (params.contact_distance - walls.distance);
     vec3 push = max(spring - params.contact_damping * v * walls.normal, vec3(0.0)) * walls.normal;
     vec3 viscosity = half_space_viscosity(walls.distance, params.support_radius); // zero beyond the support
-    float friction = params.wall_viscosity / rho * params.viscosity_scale * (viscosity.x + viscosity.y + viscosity.z);
-    friction = SOLVED_VISCOSITY ? 0.0 : friction;
+    vec3 friction = (viscosity.x + viscosity.y + viscosity.z) * v - lid_share(walls, viscosity);
+    friction *= SOLVED_VISCOSITY ? 0.0 : params.wall_viscosity / rho * params.viscosity_scale;
     bvec3 in_contact = lessThan(walls.distance, vec3(SOLVED_PRESSURE ? -NO_WALL : params.contact_distance));
-    return mix(vec3(0.0), push, in_contact) - friction * v;
+    return mix(vec3(0.0), push, in_contact) - friction;
 }
 
 // Mueller et al. 2003: -sigma lap(c) n / |n| where the surface is, a look. n points into the fluid.

@@ -19,6 +19,7 @@ layout(set = 0, binding = 7, scalar) buffer Velocity { vec4 velocity[]; };
 layout(set = 0, binding = 8) uniform textureBuffer velocity_texels;
 layout(set = 0, binding = 9, scalar) buffer StatusBuffer { Status status; };
 
+#include "include/periodic.glsl"
 #include "include/watch.glsl"
 
 void main()
@@ -28,7 +29,7 @@ void main()
         return;
     }
     vec3 v = load_candidate(velocity, i).xyz + 0.5 * params.dt * load_candidate(acceleration, i).xyz;
-    vec3 x = load_candidate(position, i).xyz + params.dt * v;
+    vec3 x = wrapped(load_candidate(position, i).xyz + params.dt * v);
     velocity[i].xyz = v;
     position[i].xyz = x;
     watch(i, x, v, step_index);

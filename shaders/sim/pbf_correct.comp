@@ -47,7 +47,7 @@ void main()
         vec3 x_then[TILE];
         vec3 x[TILE];
         image_positions(tile, own, image, x_then);
-        image_positions(tile, now, image, x);
+        moved_image_positions(own, now, image, x);
         vec3 image_change[TILE];
         [[unroll]] for (uint k = 0u; k < TILE; ++k) {
             image_change[k] = vec3(0.0);

@@ -20,6 +20,7 @@ layout(set = 0, binding = 7, scalar) buffer Pressure { float pressure[]; };
 layout(set = 0, binding = 8, scalar) buffer StatusBuffer { Status status; };
 layout(set = 0, binding = 9, scalar) buffer Solves { Solve solves[SOLVES]; };
 
+#include "include/periodic.glsl"
 #include "include/watch.glsl"
 
 void main()
@@ -41,7 +42,7 @@ void main()
         its_move = params.dt * (v - velocity[i].xyz);
         atomicAdd(solves[SOLVE_DENSITY].capped, 1u);
     }
-    vec3 x = position[i].xyz + its_move;
+    vec3 x = wrapped(position[i].xyz + its_move);
     velocity[i].xyz = v;
     position[i].xyz = x;
     float volume = interaction[i].y;

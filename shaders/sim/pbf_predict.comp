@@ -13,6 +13,7 @@ layout(set = 0, binding = 2, scalar) buffer Position { vec4 position[]; };
 layout(set = 0, binding = 3, scalar) buffer Velocity { vec4 velocity[]; };
 
 #include "include/contact.glsl"
+#include "include/periodic.glsl"
 
 void main()
 {
@@ -22,5 +23,5 @@ void main()
     }
     vec3 v = with_contact(position[i].xyz, velocity[i].xyz, params.dt);
     velocity[i].xyz = v;
-    position[i].xyz += params.dt * v;
+    position[i].xyz = wrapped(position[i].xyz + params.dt * v);
 }

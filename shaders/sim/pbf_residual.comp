@@ -52,7 +52,7 @@ void add_neighbors(vec4 own[TILE], Tile tile, out Sums sums[TILE])
         vec3 x_then[TILE];
         vec3 x[TILE];
         image_positions(tile, own, image, x_then);
-        image_positions(tile, now, image, x);
+        moved_image_positions(own, now, image, x);
         vec3 image_gradient[TILE];
         [[unroll]] for (uint k = 0u; k < TILE; ++k) {
             image_gradient[k] = vec3(0.0);

@@ -5,15 +5,22 @@
 
 namespace meltpoint {
 
-/// A column of fluid of `layers` layers in a box `width` spacings wide, Wendland kernel at H = 3 d.
+/// A column of fluid of `layers` layers in a box `width` spacings wide (and deep, in three dimensions), Wendland kernel
+/// at H = 3 d.
 class StillColumn {
 public:
-    StillColumn(const gpu::Context& context, std::uint32_t width, std::uint32_t layers, double viscosity)
+    StillColumn(const gpu::Context& context, std::uint32_t width, std::uint32_t layers, double viscosity,
+                std::uint32_t dimensions = 3)
         : context_(&context), height_(layers * static_cast<double>(test_spacing)),
           settings_(box_settings(shared::KERNEL_WENDLAND, 3.0, {width, layers + 6, width},
                                  std::sqrt(test_gravity * height_), viscosity)),
           set_(fluid_in_corner({width, layers, width}))
     {
+        if (dimensions == 2) {
+            settings_ = plane_box_settings(shared::KERNEL_WENDLAND, 3.0, {width, layers + 6},
+                                           std::sqrt(test_gravity * height_), viscosity);
+            set_ = square_state({width, layers}, glm::vec2(0.5f * test_spacing));
+        }
     }
 
     [[nodiscard]] const sim::SimulationSettings& settings() const { return settings_; }

@@ -52,6 +52,31 @@ TEST(Cells, NeighborsAreNearerThanTheSupportRadiusAndNotOneself)
     EXPECT_TRUE(neighbors.list == (std::vector<Neighbor>{{1, 0}, {3, 0}, {0, 0}, {3, 0}, {0, 0}, {1, 0}}));
 }
 
+TEST(Cells, PeriodicBordersMatchBruteForce)
+{
+    for (const std::uint32_t mask : {0x03u, 0x0cu, 0x33u, 0x3fu}) {
+        shared::SphParams params = box(0.2, 0x3f & ~mask);
+        params.periodic_mask = mask;
+        expect_same_as_brute_force(random_positions(600, 0.5), params);
+    }
+}
+
+TEST(Cells, NeighborsAreSeenAcrossThePeriodicBorder)
+{
+    shared::SphParams params = box(0.2);
+    params.periodic_mask = 0x03;
+    const std::vector<glm::dvec3> position = {{0.45, 0.45, 0.0}, {-0.45, 0.45, 0.0}, {0.45, -0.45, 0.0}};
+    const Neighbors neighbors = find_neighbors(params, position);
+    ASSERT_EQ(neighbors.start, (std::vector<std::size_t>{0, 1, 2, 2})); // y is not periodic
+    const Neighbor across = neighbors.of(0)[0];
+    EXPECT_EQ(across.index, 1u);
+    EXPECT_NEAR(reflect_position(params, across.reflection, position[1]).x, 0.55, 1e-12);
+    EXPECT_EQ(reflect_velocity(across.reflection, glm::dvec3(1.0, 2.0, 3.0)), glm::dvec3(1.0, 2.0, 3.0));
+    EXPECT_NEAR(wrap_position(params, {0.55, 0.55, 0.0}).x, -0.45, 1e-12);
+    EXPECT_NEAR(wrap_position(params, {-0.55, 0.55, 0.0}).x, 0.45, 1e-12);
+    EXPECT_EQ(wrap_position(params, {0.55, 0.55, 0.0}).y, 0.55);
+}
+
 TEST(Cells, RandomPositionsMatchBruteForce)
 {
     expect_same_as_brute_force(random_positions(2000, 0.5), box(0.1));

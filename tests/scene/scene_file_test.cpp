@@ -201,6 +201,61 @@ TEST(SceneFile, NamesContradictions)
     EXPECT_EQ(error_of(""), "test.toml: key \"fluid\" is missing: a scene has at least one [[fluid]] or [[surface]]");
 }
 
+TEST(SceneFile, TwoDimensionsMeanNothingByZ)
+{
+    const Scene scene =
+        parse("[domain]\ndimensions = 2\nmin = [0, 0, 0]\nmax = [4, 2, 0]\n[[fluid]]\nshape = \"block\"\n"
+              "min = [0, 0, 7]\nmax = [1, 1, 7]\n[[collider]]\nshape = \"block\"\nmin = [2, 0, 0]\n"
+              "max = [2, 1, 0]\n[[collider]]\nshape = \"sphere\"\ncenter = [3, 1, 9]\nradius = 0.2");
+    EXPECT_EQ(scene.domain.dimensions, 2u);
+    const std::string flat = "[domain]\ndimensions = 2\n";
+    const auto error_in_plane = [&](const std::string& text) {
+        const std::string found = error_with_block(flat + text);
+        EXPECT_NE(found.find("where domain.dimensions is 2"), std::string::npos) << found;
+        return found;
+    };
+    EXPECT_EQ(error_in_plane("[physics]\ngravity = [0, -9, 1]"),
+              "test.toml:4: key \"physics.gravity\" is [0, -9, 1], but must have no z where domain.dimensions is 2");
+    error_in_plane("periodic = [false, false, true]");
+    error_in_plane("lid_velocity = [0, 0, 1]");
+    error_in_plane("[[surface]]\nshape = \"sphere\"\ncenter = [0, 1, 0]\nradius = 0.5");
+    error_in_plane("[[collider]]\nshape = \"mesh\"\nmesh = \"builtin:cube\"\nposition = [0, 1, 0]");
+    const auto error_of_fluid = [&](const std::string& text) {
+        return error_in_plane("[[fluid]]\nshape = \"sphere\"\ncenter = [0, 1, 0]\nradius = 0.2\n" + text);
+    };
+    error_of_fluid("lattice = \"blue-noise\"");
+    error_of_fluid("velocity = [0, 0, 1]");
+    error_of_fluid("velocity_gradient = [[0, 0, 0], [0, 0, 0], [1, 0, 0]]");
+    error_of_fluid("spin = [0, 1, 0]");
+    EXPECT_NE(error_with_block(flat + "max = [1, 0, 1]").find("in x and y"), std::string::npos);
+    EXPECT_NE(error_with_block("[domain]\ndimensions = 4").find("a whole number from 2 to 3"), std::string::npos);
+}
+
+TEST(SceneFile, PeriodicAxesAndLids)
+{
+    const Scene scene =
+        parse("[domain]\nperiodic = [true, false, true]\nlid_velocity = [1, 0, 0]\n" + std::string(BLOCK));
+    EXPECT_EQ(scene.domain.periodic, glm::bvec3(true, false, true));
+    EXPECT_EQ(scene.domain.lid_velocity, glm::vec3(1.0f, 0.0f, 0.0f));
+    EXPECT_EQ(error_with_block("[domain]\nperiodic = [true, 1, false]"),
+              "test.toml:2: key \"domain.periodic\" is [true, 1, false], but must be [x, y, z], each true or false");
+    EXPECT_EQ(error_with_block("[particles]\nspacing = 0.6\n[domain]\nperiodic = [true, false, false]"),
+              "test.toml:4: key \"domain.periodic\" has x, along which the domain is 2 m long, but it must be at least "
+              "two support radii, 2.4 m (2 x particles.support_ratio x particles.spacing)");
+    EXPECT_NE(error_with_block("[domain]\nlid_velocity = [0, 1, 0]").find("along itself"), std::string::npos);
+    EXPECT_NE(error_with_block("[domain]\nperiodic = [false, true, false]\nlid_velocity = [1, 0, 0]")
+                  .find("no wall at the top"),
+              std::string::npos);
+    EXPECT_NE(error_with_block("[domain]\nwalls = false\nlid_velocity = [1, 0, 0]").find("no wall at the top"),
+              std::string::npos);
+    EXPECT_NE(error_with_block("solver = \"pbf\"\n[physics]\nshifting = 1").find("moves particles itself"),
+              std::string::npos);
+    EXPECT_NE(error_of("[domain]\nperiodic = [true, false, false]\n[[fluid]]\nshape = \"block\"\nmin = [0, 0, 0]\n"
+                       "max = [1, 1, 1]\nlattice = \"blue-noise\"")
+                  .find("knows no domain.periodic"),
+              std::string::npos);
+}
+
 TEST(SceneFile, NamesMistakesOfShapes)
 {
     EXPECT_EQ(error_of("[[fluid]]\ncolor = [1, 0, 0]"),
@@ -457,6 +512,8 @@ SceneValue random_value(Random& random, const ValueRule& rule)
     switch (rule.kind) {
     case ValueKind::Boolean:
         return {random.below(2) == 1};
+    case ValueKind::Boolean3:
+        return {SceneValue::Array{{random.below(2) == 1}, {random.below(2) == 1}, {random.below(2) == 1}}};
     case ValueKind::Integer:
         return {static_cast<std::int64_t>(rule.min) +
                 random.below(static_cast<std::uint32_t>(std::min(rule.max - rule.min, 1e9)))};
@@ -499,6 +556,7 @@ Scene random_scene(std::uint64_t seed)
                     .walls = scene.domain.walls,
                     .wall_viscosity = scene.domain.wall_viscosity};
     scene.particles.spacing = 0.0123f;
+    scene.physics.shifting = scene.solver == Solver::Pbf ? 0.0f : scene.physics.shifting;
     scene.time.dt = 1e-7f + 1e-8f * static_cast<float>(random.uniform());
     scene.camera.target = scene.camera.eye.value() + glm::vec3(1.5f, 0.0f, 0.0f);
     scene.camera.up = {0.1f, 0.9f, 0.0f};
@@ -603,7 +661,7 @@ void expect_limits(std::span<const Key<Owner>> keys)
 {
     for (const Key<Owner>& key : keys) {
         const ValueRule& rule = key.rule;
-        if (rule.kind == ValueKind::Boolean || rule.kind == ValueKind::Choice) {
+        if (rule.kind == ValueKind::Boolean || rule.kind == ValueKind::Boolean3 || rule.kind == ValueKind::Choice) {
             continue;
         }
         const bool counts = rule.kind == ValueKind::Integer || rule.kind == ValueKind::Text;

@@ -28,7 +28,23 @@ inline sim::SimulationSettings box_settings(std::uint32_t kernel, double support
     return settings;
 }
 
-/// The same for solved pressure, in steps that the device chooses: errors and bounds are the defaults of a scene.
+/// The same in the plane.
+inline sim::SimulationSettings plane_box_settings(std::uint32_t kernel, double support_ratio, const glm::uvec2& box,
+                                                  double expected_speed, double viscosity)
+{
+    sim::SimulationSettings settings =
+        box_settings(kernel, support_ratio, glm::uvec3(box, 1u), expected_speed, viscosity);
+    settings.options.dimensions = 2;
+    shared::SphParams& params = settings.params;
+    params.domain_min.z = -0.5f * params.support_radius;
+    params.domain_max.z = 0.5f * params.support_radius;
+    params.wall_mask = 0x0f;
+    set_kernel_scales(params, kernel, static_cast<double>(test_spacing), 2);
+    return settings;
+}
+
+/// The same in space for solved pressure, in steps that the device chooses: errors and bounds are the defaults of a
+/// scene.
 inline sim::SimulationSettings solved_box_settings(double support_ratio, const glm::uvec3& box, double expected_speed,
                                                    double viscosity)
 {

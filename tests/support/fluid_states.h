@@ -169,6 +169,77 @@ inline ParticleSet splash_state(std::uint64_t seed)
     return set;
 }
 
+/// A unit square with walls, for particles at z = 0.
+inline sim::SimulationSettings plane_settings(std::uint32_t kernel)
+{
+    sim::SimulationSettings settings = test_settings(kernel);
+    settings.options.dimensions = 2;
+    shared::SphParams& params = settings.params;
+    params.domain_min.z = -0.5f * params.support_radius;
+    params.domain_max.z = 0.5f * params.support_radius;
+    params.wall_mask = 0x0f;
+    set_kernel_scales(params, kernel, static_cast<double>(test_spacing), 2);
+    params.constraint_softness =
+        0.01f * static_cast<float>(lattice_response(kernel, static_cast<double>(params.support_radius),
+                                                    static_cast<double>(test_spacing), 2));
+    return settings;
+}
+
+/// The same particles at z = 0 and moving in the plane, with masses of a plane.
+inline ParticleSet in_plane(ParticleSet set)
+{
+    for (std::size_t i = 0; i < set.size(); ++i) {
+        set.position[i].z = set.velocity[i].z = 0.0f;
+        set.mass[i] /= test_spacing;
+    }
+    return set;
+}
+
+/// A square lattice block of size.x * size.y particles whose first particle's center is `corner`.
+inline ParticleSet square_state(const glm::uvec2& size, const glm::vec2& corner)
+{
+    return in_plane(lattice_state({size, 1u}, glm::vec3(corner, 0.0f)));
+}
+
+/// Fluid that moves at random over a dent line of boundary particles, with spray above, in the unit square.
+inline ParticleSet plane_splash(std::uint64_t seed)
+{
+    Random random(seed);
+    ParticleSet set = lattice_state({20, 7, 1}, glm::vec3(0.5f * test_spacing, 0.16f, 0.0f));
+    for (std::size_t i = 0; i < set.size(); ++i) {
+        set.position[i] += 0.3f * test_spacing * (random_vector(random) - 0.5f);
+        set.velocity[i] = 2.0f * random_vector(random) - 1.0f;
+    }
+    for (int i = 0; i < 61; ++i) {
+        add_particle(set, glm::mix(glm::vec3(0.01f), glm::vec3(0.99f), random_vector(random)),
+                     4.0f * random_vector(random) - 2.0f);
+    }
+    for (int i = 0; i < 27; ++i) {
+        const float x = 0.75f * test_spacing * (static_cast<float>(i) + 0.3f * static_cast<float>(random.uniform()));
+        add_boundary_particle(set, glm::vec3(x, 0.13f, 0.0f));
+    }
+    return in_plane(set);
+}
+
+/// Fluid all over the unit box, some of which leaves it in the next step, and a plate of boundary particles from border
+/// to border.
+inline ParticleSet flow_across_borders(std::uint64_t seed)
+{
+    Random random(seed);
+    ParticleSet set = random_state(900, glm::vec3(0.001f), glm::vec3(0.999f), seed);
+    for (std::size_t i = 0; i < 60; ++i) {
+        const int axis = static_cast<int>(i % 3);
+        const bool at_max = i % 2 == 0;
+        set.position[i][axis] = at_max ? 0.99999f : 0.00001f;
+        set.velocity[i][axis] = at_max ? 2.0f : -2.0f;
+    }
+    for (int i = 0; i < 14 * 14; ++i) {
+        const glm::vec3 place(static_cast<float>(i % 14) + 0.5f, 7.0f, static_cast<float>(i / 14) + 0.5f);
+        add_boundary_particle(set, place / 14.0f);
+    }
+    return set;
+}
+
 struct NamedState {
     std::string name;
     std::function<ParticleSet()> make;
