@@ -7,6 +7,7 @@
 #include <gtest/gtest.h>
 
 #include "particles/boundary_distance.h"
+#include "particles/kernel_fixture.h"
 #include "particles/sph_kernel.h"
 
 namespace meltpoint {
@@ -14,39 +15,12 @@ namespace {
 
 constexpr double PI = std::numbers::pi;
 
-// Simpson's rule on 2 n intervals.
-double integrate(double from, double to, const std::function<double(double)>& f, int n = 500)
-{
-    const double h = (to - from) / (2 * n);
-    double sum = f(from) + f(to);
-    for (int i = 1; i < 2 * n; ++i) {
-        sum += (i % 2 == 1 ? 4.0 : 2.0) * f(from + i * h);
-    }
-    return sum * h / 3.0;
-}
-
-class PlaneKernel : public testing::TestWithParam<std::uint32_t> {
+class PlaneKernel : public KernelTest {
 protected:
-    [[nodiscard]] std::uint32_t kernel() const { return GetParam(); }
-
-    const double h = 0.05;
-    const KernelScales scale = continuum_scales(GetParam(), h, 2);
-
-    [[nodiscard]] double density(double r) const { return scale.density * density_shape(kernel(), r / h); }
-    [[nodiscard]] double gradient(double r) const { return -scale.gradient * gradient_shape(kernel(), r / h); }
-    [[nodiscard]] double viscosity(double r) const { return scale.viscosity * viscosity_shape(kernel(), r / h); }
-    [[nodiscard]] double color_gradient(double r) const
-    {
-        return -scale.color_gradient * color_gradient_shape(kernel(), r / h);
-    }
-    [[nodiscard]] double color_laplacian(double r) const
-    {
-        return -scale.color_laplacian * color_laplacian_shape(kernel(), r / h, 2);
-    }
+    PlaneKernel() : KernelTest(2) {}
 };
 
-INSTANTIATE_TEST_SUITE_P(Kernels, PlaneKernel, testing::Values(shared::KERNEL_PAPER, shared::KERNEL_WENDLAND),
-                         [](const auto& test) { return test.param == shared::KERNEL_PAPER ? "Paper" : "Wendland"; });
+INSTANTIATE_TEST_SUITE_P(Kernels, PlaneKernel, both_kernels, kernel_name);
 
 TEST_P(PlaneKernel, EveryKernelHasUnitMoment)
 {

@@ -34,12 +34,7 @@ inline sim::SimulationSettings plane_box_settings(std::uint32_t kernel, double s
 {
     sim::SimulationSettings settings =
         box_settings(kernel, support_ratio, glm::uvec3(box, 1u), expected_speed, viscosity);
-    settings.options.dimensions = 2;
-    shared::SphParams& params = settings.params;
-    params.domain_min.z = -0.5f * params.support_radius;
-    params.domain_max.z = 0.5f * params.support_radius;
-    params.wall_mask = 0x0f;
-    set_kernel_scales(params, kernel, static_cast<double>(test_spacing), 2);
+    lay_flat(settings);
     return settings;
 }
 

@@ -169,16 +169,23 @@ inline ParticleSet splash_state(std::uint64_t seed)
     return set;
 }
 
-/// A unit square with walls, for particles at z = 0.
-inline sim::SimulationSettings plane_settings(std::uint32_t kernel)
+/// Settings of a box become those of its square at z = 0.
+inline void lay_flat(sim::SimulationSettings& settings)
 {
-    sim::SimulationSettings settings = test_settings(kernel);
     settings.options.dimensions = 2;
     shared::SphParams& params = settings.params;
     params.domain_min.z = -0.5f * params.support_radius;
     params.domain_max.z = 0.5f * params.support_radius;
     params.wall_mask = 0x0f;
-    set_kernel_scales(params, kernel, static_cast<double>(test_spacing), 2);
+    set_kernel_scales(params, settings.options.kernel, static_cast<double>(test_spacing), 2);
+}
+
+/// A unit square with walls, for particles at z = 0.
+inline sim::SimulationSettings plane_settings(std::uint32_t kernel)
+{
+    sim::SimulationSettings settings = test_settings(kernel);
+    lay_flat(settings);
+    shared::SphParams& params = settings.params;
     params.constraint_softness =
         0.01f * static_cast<float>(lattice_response(kernel, static_cast<double>(params.support_radius),
                                                     static_cast<double>(test_spacing), 2));
