@@ -5,7 +5,7 @@
 #
 # The fast tests (labels unit, conformance, images, physics-short) take some minutes. --all adds builds by two compilers with
 # warnings as errors, clang-tidy, the sanitizers, mutations of the source that must each turn a test red, and the long tests
-# (labels physics, long, window): about forty minutes. --no-install only checks, and exits with 2 where packages are missing.
+# (labels physics, long, window): two hours or so. --no-install only checks, and exits with 2 where packages are missing.
 # A stage that fails does not hide the later ones. Every stage's whole output is in build/logs.
 set -euo pipefail
 # shellcheck source=apps/setup.sh
