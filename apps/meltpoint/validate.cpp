@@ -95,16 +95,22 @@ nlohmann::ordered_json to_json(const validation::Case& one, const validation::Ou
     return result;
 }
 
-void write_plots(const std::filesystem::path& folder, const validation::Outcome& outcome, bool force)
+/// Finds out before minutes of work whether there is a place for the plots.
+void prepare_plots(const std::filesystem::path& folder, const std::vector<const validation::Case*>& wanted, bool force)
 {
     make_folder(folder);
-    for (const validation::Figure& figure : outcome.figures) {
-        const std::filesystem::path path = folder / figure.file;
+    for (const validation::Case* one : wanted) {
         if (!force) {
-            refuse_existing(path);
+            refuse_existing(folder / fmt::format("{}.svg", one->name));
         }
+    }
+}
+
+void write_plots(const std::filesystem::path& folder, const validation::Outcome& outcome)
+{
+    for (const validation::Figure& figure : outcome.figures) {
         const std::string svg = plot::to_svg(figure.plot);
-        write_file_atomically(path, std::as_bytes(std::span(svg)));
+        write_file_atomically(folder / figure.file, std::as_bytes(std::span(svg)));
     }
 }
 
@@ -112,6 +118,9 @@ int validate(const ValidateOptions& options, bool quiet)
 {
     const InterruptGuard interrupt;
     const std::vector<const validation::Case*> wanted = find_cases(options.names);
+    if (!options.plots.empty()) {
+        prepare_plots(options.plots, wanted, options.force);
+    }
     const gpu::Context context(context_options(options.scene));
     const validation::Host host{.context = context, .quiet = quiet, .stop = &interrupt.flag()};
     nlohmann::ordered_json document{{"device", context.info().name},
@@ -124,7 +133,7 @@ int validate(const ValidateOptions& options, bool quiet)
             const validation::Outcome outcome = one->run(host);
             held += outcome.holds() ? 1 : 0;
             if (!options.plots.empty()) {
-                write_plots(options.plots, outcome, options.force);
+                write_plots(options.plots, outcome);
             }
             if (options.json) {
                 document["results"].push_back(to_json(*one, outcome));

@@ -42,7 +42,7 @@ struct Measurement {
 [[nodiscard]] Measurement within(std::string quantity, double value, double lowest, double highest);
 
 struct Figure {
-    std::string file; ///< name of an SVG picture
+    std::string file; ///< name of an SVG picture: the case's
     plot::LinePlot plot;
 };
 
