@@ -108,6 +108,16 @@ mutation "plane: the kernel's gradient is 20 % too steep" \
     '.gradient = 140.0 / (PI * h3)' \
     '.gradient = 168.0 / (PI * h3)' \
     unit_tests '*PlaneKernel.*'
+mutation "plane: the kernel's gradient is 20 % too steep, which water at rest shows" \
+    engine/particles/sph_kernel.cpp \
+    '.gradient = 140.0 / (PI * h3)' \
+    '.gradient = 168.0 / (PI * h3)' \
+    physics_short_tests 'ShortPlaneFlows.Column*'
+mutation "plane: viscosity is 20 % too large, which vortices show" \
+    engine/particles/sph_kernel.cpp \
+    'static_cast<float>(scale.viscosity / moments.viscosity)' \
+    'static_cast<float>(1.2 * scale.viscosity / moments.viscosity)' \
+    physics_short_tests 'ShortPlaneFlows.TaylorGreen*'
 mutation "plane: the Laplacian of space" \
     shaders/include/sph_kernel.glsl \
     '? 3.0 - 7.0 * q2 : 1.0 - 3.0 * q2' \
@@ -239,6 +249,11 @@ mutation "kernels in C++: factor of the Wendland gradient 2 % off" \
     '.gradient = 210.0' \
     '.gradient = 206.0' \
     unit_tests '*SphKernel*'
+mutation "kernels in C++: the Wendland gradient is 20 % too steep, which water at rest shows" \
+    engine/particles/sph_kernel.cpp \
+    '.gradient = 210.0' \
+    '.gradient = 252.0' \
+    physics_short_tests 'ShortColumn.*'
 mutation "kernels in GLSL: constant of the Wendland kernel" \
     shaders/include/sph_kernel.glsl \
     '1.0 + 4.0 * q' \

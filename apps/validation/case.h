@@ -64,6 +64,13 @@ struct Case {
 /// All of them, the quicker ones first.
 [[nodiscard]] std::span<const Case> cases();
 
+Outcome run_free_fall(const Host& host);
+Outcome run_momentum(const Host& host);
+Outcome run_poiseuille(const Host& host);
+Outcome run_couette(const Host& host);
+Outcome run_taylor_green(const Host& host);
+Outcome run_column(const Host& host);
+Outcome run_still_water(const Host& host);
 Outcome run_buoyancy(const Host& host);
 Outcome run_dam_break(const Host& host);
 Outcome run_resolution(const Host& host);

@@ -45,7 +45,19 @@ bool Outcome::holds() const
 
 std::span<const Case> cases()
 {
-    static constexpr std::array<Case, 5> all{{
+    static constexpr std::array<Case, 12> all{{
+        {"free_fall", "Free fall", "A block of water in the air against y0 - g t^2/2.", run_free_fall},
+        {"momentum", "Two drops meet", "Nothing from outside acts on them: momentum and angular momentum stay.",
+         run_momentum},
+        {"poiseuille", "Between two plates, driven by a force",
+         "The steady profile against the parabola, at a Reynolds number of 0.0125 (Morris, Fox & Zhu 1997).",
+         run_poiseuille},
+        {"couette", "Between two plates, one of which moves", "The steady profile against the line, likewise.",
+         run_couette},
+        {"taylor_green", "Taylor-Green vortices",
+         "How fast they die, against exp(-8 pi^2 nu t/L^2), at a Reynolds number of 100.", run_taylor_green},
+        {"column", "A column of water", "Pressure and depth at rest against rho g (h - y).", run_column},
+        {"still_water", "Still water", "A column left alone for ten seconds.", run_still_water},
         {"resolution", "One scene, three resolutions",
          "A dam break whose spacing alone is halved and halved again: front and energy stay the same, nothing leaks.",
          run_resolution},

@@ -1,6 +1,7 @@
 #include "validation/scene_run.h"
 
 #include <algorithm>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -22,8 +23,13 @@ const Host& running(const Host& host)
 } // namespace
 
 SceneRun::SceneRun(const Host& host, const Scene& scene, std::size_t samples)
-    : host_(&running(host)), particles_(make_particles(scene, sim::Simulation::particle_limit(host.context))),
-      settings_(fluid_settings(scene, particles_)), simulation_(host.context, particles_, settings_.simulation),
+    : SceneRun(running(host), scene, make_particles(scene, sim::Simulation::particle_limit(host.context)), samples)
+{
+}
+
+SceneRun::SceneRun(const Host& host, const Scene& scene, ParticleSet particles, std::size_t samples)
+    : host_(running(host)), particles_(std::move(particles)), settings_(fluid_settings(scene, particles_)),
+      simulation_(host.context, particles_, settings_.simulation),
       statistics_(measure(particles_, simulation_.params())), first_potential_energy_(statistics_.potential_energy),
       lowest_energy_(energy()),
       progress_(fmt::format("{} {}", scene.name, solver_name(scene.solver)), samples, host.quiet)
@@ -32,7 +38,7 @@ SceneRun::SceneRun(const Host& host, const Scene& scene, std::size_t samples)
 
 void SceneRun::advance_by(double seconds)
 {
-    check_stop(*host_);
+    check_stop(host_);
     simulation_.advance_by(seconds);
     particles_ = simulation_.download();
     statistics_ = measure(particles_, simulation_.params());

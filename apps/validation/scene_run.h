@@ -20,6 +20,8 @@ class SceneRun {
 public:
     /// samples: how many times advance_by will be called, for the progress that is shown.
     SceneRun(const Host& host, const Scene& scene, std::size_t samples);
+    /// The same with other particles than those of the scene.
+    SceneRun(const Host& host, const Scene& scene, ParticleSet particles, std::size_t samples);
 
     /// Runs on for so many seconds, and looks. Throws Interrupted, and as sim::Simulation does.
     void advance_by(double seconds);
@@ -31,7 +33,7 @@ public:
     [[nodiscard]] const ParticleSet& particles() const { return particles_; }
     [[nodiscard]] const FrameStatistics& statistics() const { return statistics_; }
 
-    /// Kinetic and potential energy in parts of the first potential energy.
+    /// Kinetic and potential energy in parts of the first potential energy; for scenes that have one.
     [[nodiscard]] double energy() const;
     /// How far energy has risen above its lowest value before, at most, in the same parts.
     [[nodiscard]] double energy_rise() const { return energy_rise_; }
@@ -43,7 +45,7 @@ public:
     [[nodiscard]] double mean_dt() const { return time() / static_cast<double>(simulation_.step()); }
 
 private:
-    const Host* host_;
+    Host host_;
     ParticleSet particles_;
     FluidSettings settings_;
     sim::Simulation simulation_;
