@@ -28,6 +28,8 @@ Scene free_scene(const FreeMotion& motion, const char* name, float size)
     scene.particles.spacing = size / static_cast<float>(motion.across);
     scene.particles.support_ratio = 3.0f;
     scene.physics.viscosity = 0.0f;
+    scene.pbf.speed_cap = 1.0f; // who is slowed down loses momentum, so none are
+    scene.pbf.substeps = 10;
     return scene;
 }
 
@@ -36,8 +38,7 @@ Scene drops_scene(const FreeMotion& motion)
     constexpr float radius = 0.1f;
     Scene scene = free_scene(motion, "two drops", 2.0f * radius);
     scene.physics.gravity = glm::vec3(0.0f);
-    scene.pbf.speed_cap = 10.0f; // who is slowed down loses momentum
-    scene.physics.xsph = 0.0f;   // viscosity of a kind
+    scene.physics.xsph = 0.0f; // viscosity of a kind
     const glm::vec3 place(0.11f, 0.05f, -0.02f);
     const glm::vec3 velocity(-1.0f, 0.0f, 0.3f);
     for (const float sign : {1.0f, -1.0f}) {
@@ -163,7 +164,7 @@ Outcome run_momentum(const Host& host)
     Outcome outcome;
     plot::LinePlot plot{.title = "Two drops meet: what their momentum changes by",
                         .x_label = "particles across a drop",
-                        .y_label = "change, of sum m |v|",
+                        .y_label = "change, of the sum of magnitudes",
                         .curves = {},
                         .scale = plot::Scale::Logarithmic};
     for (const Solver solver : all_solvers) {
@@ -171,12 +172,13 @@ Outcome run_momentum(const Host& host)
         for (const std::uint32_t across : {6u, 12u, 24u}) {
             const Encounter encounter = measure_encounter(host, {.solver = solver, .across = across});
             const std::string what = fmt::format("{}, {} across: ", solver_name(solver), across);
-            outcome.measurements.push_back(at_most(what + "momentum, change, of sum m |v|", encounter.momentum, 1e-6));
+            outcome.measurements.push_back(
+                at_most(what + "momentum: its change, of the sum of magnitudes", encounter.momentum, 1e-6));
             // pbf moves particles along lines between places whose arms its velocities do not have yet: of first order.
-            outcome.measurements.push_back(at_most(what + "angular momentum, change, of sum m |x| |v|",
+            outcome.measurements.push_back(at_most(what + "angular momentum: its change, likewise",
                                                    encounter.angular_momentum, solver == Solver::Pbf ? 0.01 : 2e-6));
             outcome.measurements.push_back(
-                at_least(what + "momentum exchanged meanwhile, of sum m |v|", encounter.exchanged, 0.2));
+                at_least(what + "momentum exchanged meanwhile, likewise", encounter.exchanged, 0.2));
             curve.points.emplace_back(across, std::max(encounter.momentum, 1e-12)); // zero has no logarithm
         }
         plot.curves.push_back(curve);
