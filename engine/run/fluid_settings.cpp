@@ -2,14 +2,18 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <limits>
+#include <optional>
 
 #include <fmt/format.h>
 
 #include "core/error.h"
 #include "particles/sph_kernel.h"
 #include "run/plane_scene.h"
+#include "run/scene_warnings.h"
 #include "scene/materials.h"
+#include "scene/scene_check.h"
 
 namespace meltpoint {
 
@@ -58,13 +62,6 @@ double least_viscosity(const Scene& scene)
         least = std::min(least, fluid.viscosity.value_or(scene.physics.viscosity));
     }
     return static_cast<double>(least);
-}
-
-/// A value that the scene bothers to set and nothing reads.
-bool has_idle_viscosity(const Scene& scene)
-{
-    return scene.physics.viscosity != FluidPhysics{}.viscosity && !scene.fluids.empty() &&
-           std::ranges::all_of(scene.fluids, [](const FluidBody& fluid) { return fluid.viscosity.has_value(); });
 }
 
 bool differ_in_viscosity(const Scene& scene)
@@ -135,34 +132,10 @@ std::uint32_t border_mask(const Scene& scene, bool periodic)
     return mask;
 }
 
-/// Walls are mirrors; a particle between two of them, or between two images of itself, would need images of images
-/// without end.
 void check_width(const Scene& scene)
 {
-    const glm::vec3 size = scene.domain.max - scene.domain.min;
-    const auto least = static_cast<float>(2.0 * support_radius(scene));
-    for (int axis = 0; axis < static_cast<int>(scene.domain.dimensions); ++axis) {
-        const bool periodic = scene.domain.periodic[axis];
-        if ((scene.domain.walls || periodic) && size[axis] < least) {
-            throw input_error("{}: the domain is {:.4g} m wide along {}, {} it must be at least two support radii, "
-                              "{:.4g} m (2 x particles.support_ratio x particles.spacing)",
-                              scene.name, size[axis], "xyz"[axis], periodic ? "periodic" : "between walls", least);
-        }
-    }
-}
-
-/// Positions are floats: far from the origin they are too coarse for small particles.
-void warn_of_coarse_positions(const Scene& scene, std::vector<std::string>& warnings)
-{
-    constexpr double tolerable = 1e-3; // of a spacing
-    const glm::vec3 reach = glm::max(glm::abs(scene.domain.min), glm::abs(scene.domain.max));
-    const float farthest = std::max({reach.x, reach.y, reach.z});
-    const double coarseness = static_cast<double>(farthest) * std::numeric_limits<float>::epsilon();
-    if (coarseness > tolerable * static_cast<double>(scene.particles.spacing)) {
-        warnings.push_back(fmt::format("the domain reaches to {:.4g} m from the origin, where positions are good to "
-                                       "{:.2g} m, {:.2g} particle spacings: move it closer to the origin",
-                                       farthest, coarseness,
-                                       coarseness / static_cast<double>(scene.particles.spacing)));
+    if (const std::optional<NarrowAxis> narrow = find_narrow_axis(scene)) {
+        throw input_error("{}: the domain {}", scene.name, narrow->complaint);
     }
 }
 
@@ -315,7 +288,6 @@ FluidSettings fluid_settings(const Scene& any_scene, const ParticleSet& particle
                         "Pa s): the run may break down",
                         dt, bounds.viscosity, largest_viscosity(scene)));
     }
-    warn_of_coarse_positions(scene, settings.warnings);
     // Spiky is not poly6's gradient: the paper's kernels feed in energy that only viscosity takes out again (measured:
     // energy falls from about 0.005 rho c0 d on).
     const double calming = 0.005 * heaviest_rest_density(scene) * static_cast<double>(params.speed_of_sound) *
@@ -326,10 +298,7 @@ FluidSettings fluid_settings(const Scene& any_scene, const ParticleSet& particle
                         "feed energy into this scene (kernel = \"wendland\" does not)",
                         least_viscosity(scene), calming));
     }
-    if (has_idle_viscosity(scene)) {
-        settings.warnings.emplace_back("physics.viscosity is used by no fluid: each has one of its own, by its key "
-                                       "viscosity or its liquid");
-    }
+    std::ranges::move(scene_warnings(scene, particles), std::back_inserter(settings.warnings));
     // The CFL bound of the particles' own speed; the sound's is for the warning above.
     params.longest_move = (solved ? 0.5f : 0.4f * 0.5f) * params.support_radius;
     if (scene.solver == Solver::Pbf) { // it has a speed cap, which leaves no one too fast

@@ -124,15 +124,9 @@ private:
     void check_periodic() const
     {
         const DomainSettings& domain = scene_.domain;
-        const glm::vec3 size = domain.max - domain.min;
-        const float least = 2.0f * scene_.particles.support_ratio * scene_.particles.spacing;
-        for (int axis = 0; axis < (is_flat() ? 2 : 3); ++axis) {
-            if (domain.periodic[axis] && !(size[axis] >= least)) {
-                fail("domain.periodic",
-                     "has {}, along which the domain is {} m long, but it must be at least two "
-                     "support radii, {} m (2 x particles.support_ratio x particles.spacing)",
-                     "xyz"[axis], size[axis], least);
-            }
+        const std::optional<NarrowAxis> narrow = find_narrow_axis(scene_);
+        if (narrow && (narrow->periodic || !scene_.fluids.empty())) {
+            fail(narrow->periodic ? "domain.periodic" : "domain.max", "makes a domain that {}", narrow->complaint);
         }
         for (std::size_t i = 0; i < scene_.fluids.size(); ++i) {
             if (glm::any(domain.periodic) && scene_.fluids[i].lattice != FluidLattice::Cubic) {
@@ -326,6 +320,23 @@ private:
 };
 
 } // namespace
+
+std::optional<NarrowAxis> find_narrow_axis(const Scene& scene)
+{
+    const glm::vec3 size = scene.domain.max - scene.domain.min;
+    const auto least = static_cast<float>(2.0 * static_cast<double>(scene.particles.support_ratio) *
+                                          static_cast<double>(scene.particles.spacing));
+    for (int axis = 0; axis < static_cast<int>(scene.domain.dimensions); ++axis) {
+        const bool periodic = scene.domain.periodic[axis];
+        if ((scene.domain.walls || periodic) && !(size[axis] >= least)) {
+            return NarrowAxis{periodic,
+                              fmt::format("is {:.4g} m wide along {}, {}, where it must be at least two support radii, "
+                                          "{:.4g} m (2 x particles.support_ratio x particles.spacing)",
+                                          size[axis], "xyz"[axis], periodic ? "periodic" : "between walls", least)};
+        }
+    }
+    return std::nullopt;
+}
 
 void validate_scene(const Scene& scene, const KeyLocator& locate)
 {

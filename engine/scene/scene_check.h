@@ -1,6 +1,7 @@
 #pragma once
 
 #include <functional>
+#include <optional>
 #include <string>
 #include <string_view>
 
@@ -16,5 +17,13 @@ using KeyLocator = std::function<std::string(std::string_view key)>;
 /// direction. Whether meshes can be read, and whether all of it fits a device, is found out by the run. Without a
 /// locator the sentence opens with the scene's name.
 void validate_scene(const Scene& scene, const KeyLocator& locate = {});
+
+/// An axis along which the domain is narrower than two support radii. Walls are mirrors; a particle between two of
+/// them, or between two images of itself, would need images of images without end.
+struct NarrowAxis {
+    bool periodic = false; ///< else between walls
+    std::string complaint; ///< "is 1 m wide along x, between walls, where it must be ..."
+};
+[[nodiscard]] std::optional<NarrowAxis> find_narrow_axis(const Scene& scene);
 
 } // namespace meltpoint

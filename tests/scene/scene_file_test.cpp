@@ -239,9 +239,14 @@ TEST(SceneFile, PeriodicAxesAndLids)
     EXPECT_EQ(scene.domain.lid_velocity, glm::vec3(1.0f, 0.0f, 0.0f));
     EXPECT_EQ(error_with_block("[domain]\nperiodic = [true, 1, false]"),
               "test.toml:2: key \"domain.periodic\" is [true, 1, false], but must be [x, y, z], each true or false");
-    EXPECT_EQ(error_with_block("[particles]\nspacing = 0.6\n[domain]\nperiodic = [true, false, false]"),
-              "test.toml:4: key \"domain.periodic\" has x, along which the domain is 2 m long, but it must be at least "
-              "two support radii, 2.4 m (2 x particles.support_ratio x particles.spacing)");
+    EXPECT_EQ(
+        error_with_block("[particles]\nspacing = 0.6\n[domain]\nperiodic = [true, false, false]"),
+        "test.toml:4: key \"domain.periodic\" makes a domain that is 2 m wide along x, periodic, where it must be "
+        "at least two support radii, 2.4 m (2 x particles.support_ratio x particles.spacing)");
+    EXPECT_EQ(
+        error_with_block("[domain]\nmin = [0, 0, 0]\nmax = [2, 2, 0.07]"),
+        "test.toml:3: key \"domain.max\" makes a domain that is 0.07 m wide along z, between walls, where it must "
+        "be at least two support radii, 0.08 m (2 x particles.support_ratio x particles.spacing)");
     EXPECT_NE(error_with_block("[domain]\nlid_velocity = [0, 1, 0]").find("along itself"), std::string::npos);
     EXPECT_NE(error_with_block("[domain]\nperiodic = [false, true, false]\nlid_velocity = [1, 0, 0]")
                   .find("no wall at the top"),

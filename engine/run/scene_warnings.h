@@ -1,0 +1,15 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "particles/particle_set.h"
+#include "scene/scene.h"
+
+namespace meltpoint {
+
+/// Sentences about values of a scene that do not do what they seem to: keys that nothing reads, a lid that drags
+/// nothing along, a fall that has no end, shifting at a free surface, positions coarser than a particle can bear.
+[[nodiscard]] std::vector<std::string> scene_warnings(const Scene& scene, const ParticleSet& particles);
+
+} // namespace meltpoint

@@ -1,0 +1,70 @@
+// What a scene says that does not do what it seems to.
+#include "run/scene_warnings.h"
+
+#include <gtest/gtest.h>
+
+#include "run/scene_particles.h"
+
+namespace meltpoint {
+namespace {
+
+/// A square of 1 m full of fluid.
+Scene full_square()
+{
+    Scene scene;
+    scene.domain.dimensions = 2;
+    scene.domain.min = glm::vec3(0.0f);
+    scene.domain.max = glm::vec3(1.0f);
+    scene.particles.spacing = 0.05f;
+    scene.fluids.push_back({.shape = BlockShape{glm::vec3(0.0f), glm::vec3(1.0f)}});
+    return scene;
+}
+
+/// The only warning; empty where there is none.
+std::string warning_of(const Scene& scene)
+{
+    const std::vector<std::string> warnings = scene_warnings(scene, make_particles(scene, 1'000'000));
+    EXPECT_LE(warnings.size(), 1u);
+    return warnings.empty() ? "" : warnings.front();
+}
+
+TEST(SceneWarnings, ALidWithoutWallViscosity)
+{
+    Scene scene = full_square();
+    EXPECT_EQ(warning_of(scene), "");
+    scene.domain.lid_velocity.x = 1.0f;
+    EXPECT_TRUE(warning_of(scene).starts_with("domain.lid_velocity drags nothing along")) << warning_of(scene);
+    scene.domain.wall_viscosity = 1.0f;
+    EXPECT_EQ(warning_of(scene), "");
+}
+
+TEST(SceneWarnings, AFallWithoutEnd)
+{
+    Scene scene = full_square();
+    scene.domain.periodic.x = true;
+    EXPECT_EQ(warning_of(scene), ""); // onto the floor
+    scene.physics.gravity = {0.5f, 0.0f, 0.0f};
+    EXPECT_TRUE(warning_of(scene).starts_with("physics.gravity pulls along x, which is periodic")) << warning_of(scene);
+    scene.physics.speed_of_sound = 20.0f;
+    EXPECT_EQ(warning_of(scene), "");
+    scene.physics.speed_of_sound.reset();
+    scene.solver = Solver::Dfsph;
+    EXPECT_EQ(warning_of(scene), "");
+}
+
+TEST(SceneWarnings, ShiftingAtAFreeSurface)
+{
+    Scene scene = full_square();
+    scene.physics.shifting = 5.0f;
+    EXPECT_EQ(warning_of(scene), "");
+    scene.fluids[0].shape = BlockShape{glm::vec3(0.0f), glm::vec3(1.0f, 0.8f, 1.0f)};
+    scene.fluids[0].rest_density = 800.0f; // its volume counts
+    EXPECT_NE(warning_of(scene).find("this fills 0.8 of it"), std::string::npos) << warning_of(scene);
+    scene.domain.dimensions = 3;
+    EXPECT_NE(warning_of(scene).find("this fills 0.8 of it"), std::string::npos) << warning_of(scene);
+    scene.physics.shifting = 0.0f;
+    EXPECT_EQ(warning_of(scene), "");
+}
+
+} // namespace
+} // namespace meltpoint
