@@ -161,6 +161,25 @@ glm::bvec3 spans_of(const Scene& scene, std::size_t c)
     return spans;
 }
 
+/// Along a periodic axis a collider comes in again on the other side, and fluid looks for it there, one period away and
+/// no farther. `box` is that of its surface.
+void check_reach(const Scene& scene, std::size_t c, const Aabb& box)
+{
+    const glm::bvec3 spans = spans_of(scene, c);
+    for (int axis = 0; axis < static_cast<int>(scene.domain.dimensions); ++axis) {
+        const float min = scene.domain.min[axis];
+        const float max = scene.domain.max[axis];
+        const float length = max - min;
+        const bool touches = box.min[axis] <= max && box.max[axis] >= min;
+        const bool is_near = box.min[axis] >= min - length && box.max[axis] <= max + length;
+        if (scene.domain.periodic[axis] && !spans[axis] && !(touches && is_near)) {
+            throw input_error("{}: collider.{} reaches from {:.4g} to {:.4g} m along {}, which is periodic from {:.4g} "
+                              "to {:.4g} m: it must touch the domain and reach at most one period beyond it",
+                              scene.name, c, box.min[axis], box.max[axis], "xyz"[axis], min, max);
+        }
+    }
+}
+
 /// The part of the domain that lies deeper than `depth` (m) behind its borders; along a periodic axis, all of space,
 /// unless the collider has no ends there.
 Aabb open_space(const Scene& scene, std::size_t c, double depth)
@@ -221,6 +240,7 @@ std::vector<ColliderSamples> sample_colliders(const Scene& scene, double depth, 
             box.extend(x - sunk);
             box.extend(x + sunk);
         }
+        check_reach(scene, c, box);
         cut_off(scene, c, points);
         if (points.empty()) {
             throw input_error("{}: the surface of collider.{} lies outside the domain: in [{:.4g}, {:.4g}, {:.4g}] to "

@@ -134,6 +134,41 @@ TEST(PeriodicScene, ColliderAcrossTheBorderComesInAgain)
     }
 }
 
+/// The sentence that refuses a scene.
+std::string refusal_of(const Scene& scene)
+{
+    try {
+        static_cast<void>(make_particles(scene, no_limit));
+    } catch (const Error& error) {
+        return error.what();
+    }
+    return "";
+}
+
+// Fluid would start inside of it.
+TEST(PeriodicScene, ColliderFarOutsideIsRefused)
+{
+    Scene scene = flat_scene();
+    scene.domain.periodic = {true, false, false};
+    scene.fluids = {{.shape = BlockShape{{-1.0f, 0.0f, 0.0f}, {1.0f, 1.0f, 0.0f}}}};
+    const auto refusal_at = [&](float x) {
+        scene.colliders = {{.shape = SphereShape{{x, 0.5f, 0.0f}, 0.3f}}};
+        return refusal_of(scene);
+    };
+    for (const float x : {-1.25f, -0.9f, 0.9f, 1.25f}) {
+        EXPECT_EQ(refusal_at(x), "") << x;
+    }
+    for (const float x : {-3.0f, -1.4f, 1.4f, 3.0f, 7.0f}) {
+        EXPECT_NE(refusal_at(x).find("m along x, which is periodic from -1 to 1 m: it must touch the domain"),
+                  std::string::npos)
+            << x;
+    }
+    scene.colliders = {{.shape = SphereShape{{0.0f, 5.0f, 0.0f}, 4.5f}}}; // from -4.5 on
+    EXPECT_NE(refusal_of(scene).find("at most one period beyond it"), std::string::npos);
+    scene.colliders = {{.shape = BlockShape{{-9.0f, 0.0f, 0.0f}, {9.0f, 0.2f, 0.0f}}}}; // without ends
+    EXPECT_EQ(refusal_of(scene), "");
+}
+
 TEST(PeriodicScene, ColliderFromBorderToBorderHasNoEnds)
 {
     Scene scene = flat_scene();
