@@ -125,7 +125,7 @@ struct Extent {
     }
 };
 
-/// Moves labels apart that would cover each other, keeping their order.
+/// Moves labels apart that would cover each other, keeping their order, and within the picture where there is room.
 std::vector<double> spread(std::vector<double> wanted)
 {
     constexpr double gap = 17.0;
@@ -136,6 +136,10 @@ std::vector<double> spread(std::vector<double> wanted)
     std::ranges::sort(order, {}, [&](std::size_t i) { return wanted[i]; });
     for (std::size_t k = 1; k < order.size(); ++k) {
         wanted[order[k]] = std::max(wanted[order[k]], wanted[order[k - 1]] + gap);
+    }
+    double lowest = height - 6.0;
+    for (std::size_t k = order.size(); k-- > 0; lowest -= gap) {
+        wanted[order[k]] = std::min(wanted[order[k]], lowest);
     }
     return wanted;
 }

@@ -1,5 +1,6 @@
 #include "plot/line_plot.h"
 
+#include <algorithm>
 #include <limits>
 #include <string>
 #include <vector>
@@ -53,6 +54,25 @@ TEST(LinePlot, OnLinearAxesEqualDifferencesAreEqualLengths)
     EXPECT_LE(y[0], 364.0);
     EXPECT_GE(y[2], 48.0);
     EXPECT_EQ(svg.find("stroke-width=\"2\""), std::string::npos); // not joined
+}
+
+TEST(LinePlot, NamesOfCurvesThatEndTogetherStayInThePicture)
+{
+    plot::LinePlot lines{"t", "x", "y", {}, plot::Scale::Linear};
+    for (const char* name : {"c0", "c1", "c2", "c3", "c4", "c5"}) {
+        lines.curves.push_back({name, {{0.0, 1.0}, {1.0, 0.0}}});
+    }
+    const std::string svg = plot::to_svg(lines);
+    std::vector<double> y;
+    for (const plot::Curve& curve : lines.curves) {
+        const std::size_t text = svg.rfind("<text", svg.find(">" + curve.name + "<"));
+        y.push_back(std::stod(svg.substr(svg.find("y=\"", text) + 3)));
+    }
+    std::ranges::sort(y);
+    EXPECT_LE(y.back(), 420.0);
+    for (std::size_t i = 1; i < y.size(); ++i) {
+        EXPECT_GE(y[i] - y[i - 1], 12.0); // none covers another
+    }
 }
 
 // What never changes has axes too.
