@@ -108,10 +108,10 @@ mutation "plane: the kernel's gradient is 20 % too steep" \
     '.gradient = 140.0 / (PI * h3)' \
     '.gradient = 168.0 / (PI * h3)' \
     unit_tests '*PlaneKernel.*'
-mutation "plane: the kernel's gradient is 20 % too steep, which water at rest shows" \
+mutation "plane: pressure pushes 20 % too hard, which water at rest shows" \
     engine/particles/sph_kernel.cpp \
-    '.gradient = 140.0 / (PI * h3)' \
-    '.gradient = 168.0 / (PI * h3)' \
+    'static_cast<float>(scale.gradient / moments.gradient)' \
+    'static_cast<float>(1.2 * scale.gradient / moments.gradient)' \
     physics_short_tests 'ShortPlaneFlows.Column*'
 mutation "plane: viscosity is 20 % too large, which vortices show" \
     engine/particles/sph_kernel.cpp \
@@ -249,10 +249,10 @@ mutation "kernels in C++: factor of the Wendland gradient 2 % off" \
     '.gradient = 210.0' \
     '.gradient = 206.0' \
     unit_tests '*SphKernel*'
-mutation "kernels in C++: the Wendland gradient is 20 % too steep, which water at rest shows" \
+mutation "kernels in C++: pressure pushes 20 % too hard, which water at rest shows" \
     engine/particles/sph_kernel.cpp \
-    '.gradient = 210.0' \
-    '.gradient = 252.0' \
+    'static_cast<float>(scale.gradient / moments.gradient)' \
+    'static_cast<float>(1.2 * scale.gradient / moments.gradient)' \
     physics_short_tests 'ShortColumn.*'
 mutation "kernels in GLSL: constant of the Wendland kernel" \
     shaders/include/sph_kernel.glsl \
