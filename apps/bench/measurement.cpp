@@ -135,7 +135,7 @@ std::unique_ptr<Yardstick> make_yardstick(const ParticleSet& state, const shared
         log_warning("the yardstick shifts no particles: this scene is measured without it");
         return nullptr;
     }
-    if (options.tension) {
+    if (options.tension || options.capillarity) {
         log_warning("the yardstick has no surface tension: this scene is measured without it");
         return nullptr;
     }

@@ -203,7 +203,11 @@ PassError compare_diagonal(Device& device, const reference::Settings& settings, 
             // The response itself: its inverse would be all about pairs that hardly touch.
             const double diagonal = reference::jacobi_diagonal(settings, twin, neighbors, i);
             const double expected = diagonal > 0.0 ? 1.0 / diagonal : 0.0;
-            error.add((found[i].w > 0.0f ? 1.0 / static_cast<double>(found[i].w) : 0.0) - expected, expected);
+            error.add((found[i].w > 0.0f
+                           ? static_cast<double>(device.params.gradient_scale) / static_cast<double>(found[i].w)
+                           : 0.0) -
+                          expected,
+                      expected);
         }
     }
     return {"diagonal", error.value(), pass_bound};

@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 
 #include "conformance/boundary_comparison.h"
+#include "conformance/capillarity_comparison.h"
 #include "conformance/device.h"
 #include "conformance/dfsph_comparison.h"
 #include "conformance/pbf_comparison.h"
@@ -337,6 +338,11 @@ std::vector<PassError> compare_passes(const gpu::Context& context, const Particl
     }
     if (settings.options.confinement) {
         errors.push_back(compare_confinement(device, twin_settings, neighbors));
+    }
+    if (settings.options.capillarity) {
+        for (PassError& error : compare_capillarity(device, settings.options, twin_settings, neighbors)) {
+            errors.push_back(std::move(error));
+        }
     }
     if (settings.options.xsph) {
         errors.push_back(compare_xsph(device, twin_settings, neighbors));

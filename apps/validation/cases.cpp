@@ -45,7 +45,7 @@ bool Outcome::holds() const
 
 std::span<const Case> cases()
 {
-    static constexpr std::array<Case, 12> all{{
+    static constexpr std::array<Case, 15> all{{
         {"free_fall", "Free fall", "A block of water in the air against y0 - g t^2/2.", run_free_fall},
         {"momentum", "Two drops meet", "Nothing from outside acts on them: momentum and angular momentum stay.",
          run_momentum},
@@ -58,6 +58,15 @@ std::span<const Case> cases()
          "How fast they die, against exp(-8 pi^2 nu t/L^2), at a Reynolds number of 100.", run_taylor_green},
         {"column", "A column of water", "Pressure and depth at rest against rho g (h - y).", run_column},
         {"still_water", "Still water", "A column left alone for ten seconds.", run_still_water},
+        {"laplace", "Pressure in a drop",
+         "A drop of water at rest without weight against Laplace (1806): 2 sigma/R, in two dimensions sigma/R.",
+         run_laplace},
+        {"drop", "A drop swings", "The period of a drop that was drawn out against Rayleigh (1879) and Lamb (1932).",
+         run_drop},
+        {"contact_angle", "A drop on a floor",
+         "The cap that a block of water becomes, without weight, against the contact angle that the floor has (Young "
+         "1805).",
+         run_contact_angle},
         {"resolution", "One scene, three resolutions",
          "A dam break whose spacing alone is halved and halved again: front and energy stay the same, nothing leaks.",
          run_resolution},

@@ -7,10 +7,12 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <vector>
 
 #include <glm/glm.hpp>
 
 #include "core/error.h"
+#include "shared/capillarity.h"
 #include "shared/pbf.h"
 
 namespace meltpoint {
@@ -250,6 +252,49 @@ double wall_viscosity_integral(std::uint32_t kernel, double distance, double sup
     return 14.0 * per_area * u * u * u * u * u * (1.0 + 2.0 * q);
 }
 
+LayerSteepness surface_layers(std::uint32_t kernel, double support_radius, double spacing, std::uint32_t dimensions)
+{
+    const double ratio = checked_support_ratio(support_radius, spacing);
+    const double scale = continuum_scales(kernel, ratio, dimensions).gradient /
+                         lattice_moments(kernel, support_radius, spacing, dimensions).gradient;
+    const int reach = static_cast<int>(std::ceil(ratio));
+    // What is smoothed once more reaches one support radius less deep, so start with enough layers.
+    std::vector<double> steepness(static_cast<std::size_t>((shared::NORMAL_SMOOTHINGS + 1) * reach + 2), 0.0);
+    const auto sum_over = [&](std::size_t layer, const auto& add) {
+        for_each_lattice_site(ratio, dimensions, [&](const glm::dvec3& site, double r) {
+            const double other = static_cast<double>(layer) + site.x;
+            if (other >= 0.0 && other < static_cast<double>(steepness.size())) {
+                add(site, r, static_cast<std::size_t>(std::lround(other)));
+            }
+        });
+    };
+    for (std::size_t layer = 0; layer + static_cast<std::size_t>(reach) < steepness.size(); ++layer) {
+        sum_over(layer, [&](const glm::dvec3& site, double r, std::size_t) {
+            steepness[layer] += r > 0.0 ? ratio * scale * gradient_shape(kernel, r / ratio) * site.x / r : 0.0;
+        });
+    }
+    for (std::uint32_t smoothing = 0; smoothing < shared::NORMAL_SMOOTHINGS; ++smoothing) {
+        std::vector<double> smoothed(steepness.size(), 0.0);
+        for (std::size_t layer = 0; layer < steepness.size(); ++layer) {
+            double weight = 0.0;
+            sum_over(layer, [&](const glm::dvec3&, double r, std::size_t other) {
+                smoothed[layer] += density_shape(kernel, r / ratio) * steepness[other];
+                weight += density_shape(kernel, r / ratio);
+            });
+            smoothed[layer] /= weight;
+        }
+        steepness = smoothed;
+    }
+    double beyond = 0.0;
+    double whole = 0.0;
+    for_each_lattice_site(ratio, dimensions, [&](const glm::dvec3& site, double r) {
+        const double along = site.x > 0.0 ? gradient_shape(kernel, r / ratio) * site.x / r : 0.0;
+        beyond += site.y < 0.0 ? along : 0.0;
+        whole += along;
+    });
+    return {.first = steepness[0], .second = steepness[1], .beyond = beyond / whole};
+}
+
 void set_kernel_scales(shared::SphParams& params, std::uint32_t kernel, double spacing, std::uint32_t dimensions)
 {
     const double support_radius = static_cast<double>(params.support_radius);
@@ -271,6 +316,11 @@ void set_kernel_scales(shared::SphParams& params, std::uint32_t kernel, double s
 
     const double near = static_cast<double>(shared::ARTIFICIAL_PRESSURE_DISTANCE) * spacing / support_radius;
     params.artificial_pressure_scale = static_cast<float>(1.0 / density_shape(kernel, near));
+
+    const LayerSteepness layers = surface_layers(kernel, support_radius, spacing, dimensions);
+    params.first_layer_steepness = static_cast<float>(layers.first);
+    params.second_layer_steepness = static_cast<float>(layers.second);
+    params.share_beyond_solid = static_cast<float>(layers.beyond);
 
     params.spacing = static_cast<float>(spacing);
     params.shifting_scale = static_cast<float>(1.0 / density_shape(kernel, spacing / support_radius));

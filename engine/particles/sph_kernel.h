@@ -84,6 +84,17 @@ struct PairViscosity {
 [[nodiscard]] double largest_jacobi_eigenvalue(std::uint32_t kernel, double support_radius, double spacing,
                                                std::uint32_t dimensions = 3);
 
+/// |n| H in the two outermost layers of that lattice where it ends in a flat surface, half a spacing and one and a half
+/// below it: of n = d^3 sum_j grad W_ij, smoothed as shared/capillarity.h does. Throws as lattice_moments.
+struct LayerSteepness {
+    double first;
+    double second;
+    double beyond; ///< where the surface stands on a solid: the part of n of its lowest layer that fluid in the solid's
+                   ///< place would have
+};
+[[nodiscard]] LayerSteepness surface_layers(std::uint32_t kernel, double support_radius, double spacing,
+                                            std::uint32_t dimensions = 3);
+
 inline constexpr double MIN_SUPPORT_RATIO = 1.2; ///< below, a lattice has hardly any neighbors left
 inline constexpr double MAX_SUPPORT_RATIO = 8.0; ///< above, a particle has more than 2100 neighbors
 

@@ -6,6 +6,7 @@
 
 #include "core/parallel_for.h"
 #include "particles/sph_kernel.h"
+#include "reference/capillarity.h"
 #include "reference/density.h"
 #include "reference/integrate.h"
 #include "reference/shifting.h"
@@ -177,6 +178,7 @@ DfsphStep dfsph_step(const Settings& settings, State& state, WarmStarts& warm_st
     const Accelerations a = accelerations(settings, state, neighbors);
     parallel_for(state.size(), [&](std::size_t i) { state.acceleration[i] = a.total[i].value; });
     add_confinement(settings, state, neighbors);
+    add_capillarity(settings, state, neighbors);
     kick(state, step_length(settings));
     if (settings.implicit_viscosity) {
         (void)solve_viscosity(settings, state, neighbors);

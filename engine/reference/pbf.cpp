@@ -6,6 +6,7 @@
 
 #include "core/parallel_for.h"
 #include "particles/sph_kernel.h"
+#include "reference/capillarity.h"
 #include "reference/density.h"
 #include "reference/integrate.h"
 #include "reference/vorticity.h"
@@ -195,6 +196,7 @@ SolveResult pbf_step(const Settings& settings, State& state)
     const Accelerations a = accelerations(settings, state, neighbors);
     parallel_for(state.size(), [&](std::size_t i) { state.acceleration[i] = a.total[i].value; });
     add_confinement(settings, state, neighbors);
+    add_capillarity(settings, state, neighbors);
     std::vector<glm::dvec3> moves;
     const SolveResult result = solve_positions(settings, state, neighbors, moves);
     (void)finish(settings, state, moves);

@@ -2,6 +2,7 @@
 
 #include "core/parallel_for.h"
 #include "reference/boundary.h"
+#include "reference/capillarity.h"
 #include "reference/cells.h"
 #include "reference/density.h"
 #include "reference/forces.h"
@@ -25,6 +26,7 @@ void update(const Settings& settings, State& state, bool smooth)
     const Accelerations a = accelerations(settings, state, neighbors);
     parallel_for(state.size(), [&](std::size_t i) { state.acceleration[i] = a.total[i].value; });
     add_confinement(settings, state, neighbors);
+    add_capillarity(settings, state, neighbors);
     state.status.coincident = a.coincident_pairs;
 }
 

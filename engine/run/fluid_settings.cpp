@@ -4,6 +4,7 @@
 #include <cmath>
 #include <iterator>
 #include <limits>
+#include <numbers>
 #include <optional>
 
 #include <fmt/format.h>
@@ -64,6 +65,19 @@ double least_viscosity(const Scene& scene)
     return static_cast<double>(least);
 }
 
+/// s, of a time step: what ripples a spacing long need (after Brackbill, Kothe & Zemach 1992, equation 61).
+double tension_bound(const Scene& scene)
+{
+    double bound = std::numeric_limits<double>::infinity();
+    for (const FluidBody& fluid : scene.fluids) {
+        const double sigma = static_cast<double>(tension_of(scene, fluid));
+        const double mass =
+            static_cast<double>(fluid.rest_density) * std::pow(static_cast<double>(scene.particles.spacing), 3.0);
+        bound = sigma > 0.0 ? std::min(bound, 0.2 * std::sqrt(mass / sigma)) : bound;
+    }
+    return bound;
+}
+
 bool differ_in_viscosity(const Scene& scene)
 {
     return std::ranges::any_of(scene.fluids, [&](const FluidBody& fluid) {
@@ -94,6 +108,11 @@ double heaviest_rest_density(const Scene& scene)
         heaviest = std::max(heaviest, static_cast<double>(body.rest_density));
     }
     return heaviest;
+}
+
+float cosine_of(float degrees)
+{
+    return static_cast<float>(std::cos(static_cast<double>(degrees) * std::numbers::pi / 180.0));
 }
 
 /// The fastest that a step's longest move allows is reserve for a fluid that accelerates.
@@ -185,7 +204,8 @@ TimeStepBounds time_step_bounds(const Scene& scene, double speed_of_sound, doubl
                            : std::min(static_cast<double>(cfl_length(scene)) / speed, longest_step(scene));
     return {.cfl = cfl,
             .viscosity = viscosity > 0.0 ? 0.06 * lightest * support * support / viscosity
-                                         : std::numeric_limits<double>::infinity()};
+                                         : std::numeric_limits<double>::infinity(),
+            .tension = tension_bound(scene)};
 }
 
 bool solves_viscosity(const Scene& scene, const TimeStepBounds& bounds)
@@ -236,7 +256,8 @@ FluidSettings fluid_settings(const Scene& any_scene, const ParticleSet& particle
     params.vorticity_confinement = scene.physics.vorticity_confinement;
     params.shifting =
         scene.physics.shifting * static_cast<float>(0.5 * support_radius(scene) * speed); // a way of H/2 at that speed
-    params.surface_tension = scene.physics.surface_tension;
+    params.surface_tension = scene.physics.tension_model == TensionModel::Paper ? scene.physics.surface_tension : 0.0f;
+    params.wall_contact_cosine = cosine_of(scene.domain.contact_angle);
     params.tension_threshold = scene.physics.tension_threshold;
     params.density_error = scene.solve.density_error.value_or(scene.solver == Solver::Pbf ? 0.01f : 5e-4f);
     params.divergence_error = scene.solve.divergence_error;
@@ -252,6 +273,9 @@ FluidSettings fluid_settings(const Scene& any_scene, const ParticleSet& particle
         params.rest_density[i] = materials.materials[i].rest_density;
         params.viscosity[i] = materials.materials[i].viscosity;
         params.friction[i] = materials.materials[i].friction;
+        params.tension[i] = materials.materials[i].tension;
+        params.contact_cosine[i] = cosine_of(materials.materials[i].contact_angle);
+        settings.simulation.options.capillarity |= materials.materials[i].tension > 0.0f;
     }
 
     const double frame_rate = static_cast<double>(scene.time.frame_rate);
@@ -266,8 +290,8 @@ FluidSettings fluid_settings(const Scene& any_scene, const ParticleSet& particle
     const bool solved = scene.solver != Solver::Wcsph;
     params.cfl_length = solved ? cfl_length(scene) : 0.4f * 0.5f * params.support_radius;
     params.cfl_speed = solved ? 0.0f : params.speed_of_sound;
-    params.longest_dt = static_cast<float>(
-        std::min({bounds.viscosity, 1.0 / frame_rate, solved ? longest_step(scene) : 1.0 / frame_rate}));
+    params.longest_dt = static_cast<float>(std::min(
+        {bounds.viscosity, bounds.tension, 1.0 / frame_rate, solved ? longest_step(scene) : 1.0 / frame_rate}));
     params.shortest_dt = 1e-3f * params.dt;
     const double dt = static_cast<double>(params.dt);
     if (dt * frame_rate > 1.0 + 1e-6) {
@@ -298,6 +322,11 @@ FluidSettings fluid_settings(const Scene& any_scene, const ParticleSet& particle
                         "feed energy into this scene (kernel = \"wendland\" does not)",
                         least_viscosity(scene), calming));
     }
+    if (dt > bounds.tension * (1.0 + 1e-6)) {
+        settings.warnings.push_back(
+            fmt::format("time.dt is {:.4g} s, above the bound of surface tension of {:.4g} s: the run may break down",
+                        dt, bounds.tension));
+    }
     std::ranges::move(scene_warnings(scene, particles), std::back_inserter(settings.warnings));
     // The CFL bound of the particles' own speed; the sound's is for the warning above.
     params.longest_move = (solved ? 0.5f : 0.4f * 0.5f) * params.support_radius;
@@ -309,7 +338,8 @@ FluidSettings fluid_settings(const Scene& any_scene, const ParticleSet& particle
     options.solver = solver_number(scene.solver);
     options.kernel = scene.kernel == SphKernel::Wendland ? shared::KERNEL_WENDLAND : shared::KERNEL_PAPER;
     options.mixed_viscosity = differ_in_viscosity(scene);
-    options.tension = scene.physics.surface_tension > 0.0f;
+    options.tension = params.surface_tension > 0.0f;
+    options.colliders = options.capillarity && !scene.colliders.empty();
     options.xsph = params.xsph > 0.0f;
     options.confinement = params.vorticity_confinement > 0.0f;
     options.shifting = params.shifting > 0.0f;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <string>
 #include <vector>
 
@@ -19,7 +20,9 @@ struct TimeStepBounds {
     double viscosity =
         0.0; ///< 0.06 rho S^2 / mu, infinite without viscosity; does not hold where viscosity is solved for
 
-    [[nodiscard]] double smallest() const { return cfl < viscosity ? cfl : viscosity; }
+    double tension = 0.0; ///< 0.2 sqrt(rho d^3 / sigma), of the fastest ripples; infinite without tension
+
+    [[nodiscard]] double smallest() const { return std::min({cfl, viscosity, tension}); }
 };
 /// speed_of_sound: c0, m/s. speed: v, the fastest that the fluid is expected to move, m/s.
 [[nodiscard]] TimeStepBounds time_step_bounds(const Scene& scene, double speed_of_sound, double speed);

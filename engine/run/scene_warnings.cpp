@@ -6,6 +6,7 @@
 
 #include <fmt/format.h>
 
+#include "scene/liquids.h"
 #include "scene/materials.h"
 #include "shared/sph_params.h"
 
@@ -36,6 +37,19 @@ std::optional<std::string> idle_viscosity(const Scene& scene)
         return std::nullopt;
     }
     return "physics.viscosity is used by no fluid: each has one of its own, by its key viscosity or its liquid";
+}
+
+std::optional<std::string> idle_tension(const Scene& scene)
+{
+    const bool own = std::ranges::all_of(scene.fluids, [](const FluidBody& fluid) {
+        return fluid.surface_tension.has_value() || find_liquid(fluid.liquid) != nullptr;
+    });
+    if (scene.physics.surface_tension == 0.0f || scene.physics.tension_model != TensionModel::Si ||
+        scene.fluids.empty() || !own) {
+        return std::nullopt;
+    }
+    return "physics.surface_tension is used by no fluid: each has one of its own, by its key surface_tension or its "
+           "liquid";
 }
 
 std::optional<std::string> idle_lid(const Scene& scene)
@@ -90,8 +104,9 @@ std::optional<std::string> shifted_surface(const Scene& scene, const ParticleSet
 std::vector<std::string> scene_warnings(const Scene& scene, const ParticleSet& particles)
 {
     std::vector<std::string> warnings;
-    for (const std::optional<std::string>& warning : {coarse_positions(scene), idle_viscosity(scene), idle_lid(scene),
-                                                      endless_fall(scene), shifted_surface(scene, particles)}) {
+    for (const std::optional<std::string>& warning :
+         {coarse_positions(scene), idle_viscosity(scene), idle_tension(scene), idle_lid(scene), endless_fall(scene),
+          shifted_surface(scene, particles)}) {
         if (warning) {
             warnings.push_back(*warning);
         }

@@ -37,10 +37,7 @@ struct Codec<bool> {
 template <>
 struct Codec<glm::bvec3> {
     static constexpr ValueKind kind = ValueKind::Boolean3;
-    static SceneValue to_value(const glm::bvec3& field)
-    {
-        return {SceneValue::Array{{field.x}, {field.y}, {field.z}}};
-    }
+    static SceneValue to_value(const glm::bvec3& field) { return {SceneValue::Array{{field.x}, {field.y}, {field.z}}}; }
     static glm::bvec3 from_value(const SceneValue& value)
     {
         const SceneValue::Array& values = array(value);
@@ -259,6 +256,7 @@ std::vector<SceneKey> make_scene_keys()
         flag<Scene>("domain.walls", FIELD(domain.walls), "all faces are walls; without, leaving the domain ends the run"),
         k("domain.periodic", FIELD(domain.periodic), "", Range{}, "axes along which the domain has no walls but begins again: what leaves through one border comes in through the other"),
         k("domain.wall_viscosity", FIELD(domain.wall_viscosity), "Pa s", Range{0, 1e4}, "of fluid against walls; 0 lets it slip freely, twice the fluid's holds it fast"),
+        k("domain.contact_angle", FIELD(domain.contact_angle), "degrees", Range{0, 180}, "of fluid with surface tension at the walls, inside the fluid: below 90 it wets them (adhesion), above it beads off"),
         k("domain.lid_velocity", FIELD(domain.lid_velocity), "m/s", SPEED, "of the wall at the top, which drags fluid along where domain.wall_viscosity is above 0; without y"),
 
         k("particles.spacing", FIELD(particles.spacing), "m", Range{1e-5, 100}, "distance d of neighboring particles at rest; halving it makes eight times as many, in two dimensions four times"),
@@ -271,8 +269,10 @@ std::vector<SceneKey> make_scene_keys()
         k("physics.xsph", FIELD(physics.xsph), "", Range{0, 1}, "part of the difference between a particle's velocity and those around it that a step takes away (Monaghan 1989, Schechter & Bridson 2012); auto: 0.01 of pbf, else 0"),
         k("physics.vorticity_confinement", FIELD(physics.vorticity_confinement), "m/s", Range{0, 100}, "spins up vortices that the resolution wears away (Macklin & Mueller 2013): acceleration where vorticity falls off, over vorticity; a look, it adds energy and keeps no momentum"),
         k("physics.shifting", FIELD(physics.shifting), "", Range{0, 100}, "lets particles diffuse to where there are fewer (Lind et al. 2012); in units of H/2 times the speed expected of this scene, 5 keeps closed flows even where physics.clamp_pressure is off; not for free surfaces, nor for pbf"),
-        k("physics.surface_tension", FIELD(physics.surface_tension), "N/m", Range{0, 1e4}, "of the model of Mueller et al. 2003: a look, not a measured force"),
-        k("physics.tension_threshold", FIELD(physics.tension_threshold), "", Range{0, 100}, "on the color gradient times H: particles below it are inside and feel no tension"),
+        k("physics.surface_tension", FIELD(physics.surface_tension), "N/m", Range{0, 1e4}, "of fluids that have none of their own; water against air has 0.073"),
+        choice<Scene>("physics.tension_model", FIELD(physics.tension_model), {{"si", TensionModel::Si}, {"paper", TensionModel::Paper}},
+                      "si: a force in SI units from the curvature of the surface (Brackbill et al. 1992), with contact angles; paper: that of Mueller et al. 2003 with physics.surface_tension, a look and no measured force"),
+        k("physics.tension_threshold", FIELD(physics.tension_threshold), "", Range{0, 100}, "of tension_model \"paper\", on the color gradient times H: particles below it are inside and feel no tension"),
         choice<Scene>("physics.state_equation", FIELD(physics.state_equation), {{"linear", StateEquation::Linear}, {"tait", StateEquation::Tait}},
                       "pressure from density: linear in it, or to the power of gamma"),
         k("physics.speed_of_sound", FIELD(physics.speed_of_sound), "m/s", Range{1e-3, 1e5}, "stiffness of the fluid; auto: 10 times the speed expected of this scene"),
@@ -351,7 +351,7 @@ FluidKey liquid_key()
         words.emplace_back(liquid.name, liquid.name);
     }
     FluidKey result = choice<FluidBody>("liquid", FIELD(liquid), words,
-        "what it is: gives rest_density, viscosity and color the values below, unless they stand in the scene; custom: nothing");
+        "what it is: gives rest_density, viscosity, surface_tension and color the values below, unless they stand in the scene; custom: nothing");
     result.set = [set = result.set](FluidBody& body, const SceneValue& value) {
         const Liquid* liquid = find_liquid(std::get<std::string>(value.data));
         if (liquid != nullptr) {
@@ -371,6 +371,7 @@ std::vector<FluidKey> make_fluid_keys()
         choice<FluidBody>("lattice", FIELD(lattice), {{"cubic", FluidLattice::Cubic}, {"blue-noise", FluidLattice::BlueNoise}}, "how its particles lie at the start: in rows, or evenly without any, relaxed until the density varies by 1 %"),
         k("rest_density", FIELD(rest_density), "kg/m^3", Range{1e-3, 1e5}, "density without pressure"),
         k("viscosity", FIELD(viscosity), "Pa s", Range{0, 1e4}, "dynamic; auto: physics.viscosity. Between two fluids the harmonic mean is at work"),
+        k("surface_tension", FIELD(surface_tension), "N/m", Range{0, 1e4}, "against air, of tension_model \"si\"; auto: the liquid's, where particles are finer than its capillary length sqrt(tension / (density gravity)), else 0; without a liquid physics.surface_tension"),
         k("velocity", FIELD(velocity), "m/s", SPEED, "at the start, of the whole body"),
         k("velocity_gradient", FIELD(velocity_gradient), "1/s", SPEED, "rows of a matrix; the matrix times the position adds to the velocity"),
         k("spin", FIELD(spin), "rad/s", SPEED, "spin x (position - spin_center) adds to the velocity"),
@@ -386,6 +387,7 @@ std::vector<ColliderKey> make_collider_keys()
         k("spacing", FIELD(spacing), "particle spacings", Range{0.25, 0.75}, "distance of the boundary particles on its surface; from 0.8 on fluid would leak through"),
         flag<ColliderBody>("solid", FIELD(solid), "fluid that would start inside is left out; false: a hollow shell, which may hold fluid"),
         k("friction", FIELD(friction), "Pa s", Range{0, 1e4}, "viscosity of fluid against it; 0 lets it slip freely"),
+        k("contact_angle", FIELD(contact_angle), "degrees", Range{0, 180}, "of fluid with surface tension at it, inside the fluid: below 90 fluid wets it (adhesion), above it beads off"),
         k("color", FIELD(color), "linear RGB", UNIT, "in render.color = \"material\"; gray in the other modes"),
     });
 }

@@ -10,12 +10,12 @@ namespace meltpoint {
 std::span<const Liquid> liquids()
 {
     static constexpr std::array<Liquid, 6> all{{
-        {"water", 998.2f, 1.002e-3f, {0.16f, 0.45f, 0.78f}},
-        {"oil", 912.0f, 0.084f, {0.70f, 0.58f, 0.08f}},
-        {"glycerin", 1261.0f, 1.41f, {0.80f, 0.84f, 0.86f}},
-        {"honey", 1400.0f, 10.0f, {0.72f, 0.36f, 0.04f}},
-        {"lava", 2700.0f, 100.0f, {0.85f, 0.16f, 0.02f}},
-        {"mercury", 13546.0f, 1.55e-3f, {0.55f, 0.56f, 0.58f}},
+        {"water", 998.2f, 1.002e-3f, 0.0728f, {0.16f, 0.45f, 0.78f}},
+        {"oil", 912.0f, 0.084f, 0.032f, {0.70f, 0.58f, 0.08f}},
+        {"glycerin", 1261.0f, 1.41f, 0.0634f, {0.80f, 0.84f, 0.86f}},
+        {"honey", 1400.0f, 10.0f, 0.05f, {0.72f, 0.36f, 0.04f}},
+        {"lava", 2700.0f, 100.0f, 0.35f, {0.85f, 0.16f, 0.02f}},
+        {"mercury", 13546.0f, 1.55e-3f, 0.485f, {0.55f, 0.56f, 0.58f}},
     }};
     return all;
 }

@@ -12,9 +12,10 @@ namespace meltpoint {
 /// A liquid that a scene may name instead of giving its values.
 struct Liquid {
     std::string_view name;
-    float rest_density; ///< kg/m^3
-    float viscosity;    ///< dynamic, Pa s
-    glm::vec3 color;    ///< linear RGB
+    float rest_density;    ///< kg/m^3
+    float viscosity;       ///< dynamic, Pa s
+    float surface_tension; ///< against air, N/m
+    glm::vec3 color;       ///< linear RGB
 };
 
 /// At 20 C, lava at 1,200 C.

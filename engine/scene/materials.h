@@ -6,16 +6,19 @@
 
 #include <glm/glm.hpp>
 
+#include "scene/liquids.h"
 #include "scene/scene.h"
 
 namespace meltpoint {
 
 /// What the particles of a fluid or a collider share: an entry of the device's material table.
 struct Material {
-    float rest_density = 0.0f; ///< kg/m^3; 0 for colliders, which have no mass
-    glm::vec3 color{0.0f};     ///< linear RGB
-    float friction = 0.0f;     ///< Pa s, of fluid against a collider
-    float viscosity = 0.0f;    ///< Pa s, of fluids
+    float rest_density = 0.0f;  ///< kg/m^3; 0 for colliders, which have no mass
+    glm::vec3 color{0.0f};      ///< linear RGB
+    float friction = 0.0f;      ///< Pa s, of fluid against a collider
+    float viscosity = 0.0f;     ///< Pa s, of fluids
+    float tension = 0.0f;       ///< N/m, of fluids
+    float contact_angle = 0.0f; ///< degrees, of fluid at a collider
 
     bool operator==(const Material&) const = default;
 };
@@ -26,8 +29,25 @@ struct SceneMaterials {
     std::vector<std::uint32_t> of_collider; ///< likewise for Scene::colliders
 };
 
-/// Fluids of equal rest density, viscosity and color are one material, and so are colliders of equal color and
-/// friction.
+/// sigma of a fluid, N/m, where it is a force in SI units. A named liquid brings its own; it is left out where drops
+/// and waves that it would shape are finer than the particles, the capillary length sqrt(sigma / (rho g)) being shorter
+/// than a spacing.
+inline float tension_of(const Scene& scene, const FluidBody& body)
+{
+    if (scene.physics.tension_model != TensionModel::Si) {
+        return 0.0f;
+    }
+    const Liquid* liquid = find_liquid(body.liquid);
+    if (body.surface_tension || liquid == nullptr) {
+        return body.surface_tension.value_or(scene.physics.surface_tension);
+    }
+    const float spacing = scene.particles.spacing;
+    const float weight = body.rest_density * glm::length(scene.physics.gravity) * spacing * spacing;
+    return liquid->surface_tension >= weight ? liquid->surface_tension : 0.0f;
+}
+
+/// Fluids of equal rest density, viscosity, tension and color are one material, and so are colliders of equal color,
+/// friction and contact angle.
 inline SceneMaterials scene_materials(const Scene& scene)
 {
     SceneMaterials result;
@@ -42,10 +62,12 @@ inline SceneMaterials scene_materials(const Scene& scene)
     for (const FluidBody& body : scene.fluids) {
         result.of_fluid.push_back(index_of({.rest_density = body.rest_density,
                                             .color = body.color,
-                                            .viscosity = body.viscosity.value_or(scene.physics.viscosity)}));
+                                            .viscosity = body.viscosity.value_or(scene.physics.viscosity),
+                                            .tension = tension_of(scene, body)}));
     }
     for (const ColliderBody& body : scene.colliders) {
-        result.of_collider.push_back(index_of({.color = body.color, .friction = body.friction}));
+        result.of_collider.push_back(
+            index_of({.color = body.color, .friction = body.friction, .contact_angle = body.contact_angle}));
     }
     return result;
 }

@@ -17,6 +17,7 @@ enum class SphKernel { Paper, Wendland };
 enum class StateEquation { Linear, Tait };
 enum class Solver { Wcsph, Dfsph, Pbf };
 enum class ViscosityModel { Auto, Explicit, Implicit };
+enum class TensionModel { Si, Paper };
 
 /// The box that the particles stay in.
 struct DomainSettings {
@@ -26,6 +27,7 @@ struct DomainSettings {
     bool walls = true;                 ///< all faces are walls; without, leaving the domain ends the run
     glm::bvec3 periodic{false};        ///< axes that begin again where they end, instead of walls
     float wall_viscosity = 0.0f;       ///< Pa s; 0 is free slip
+    float contact_angle = 90.0f;       ///< degrees, of fluid with tension at the walls
     glm::vec3 lid_velocity{0.0f};      ///< m/s, of the wall at max.y; along it
 };
 
@@ -43,8 +45,9 @@ struct FluidPhysics {
     std::optional<float> xsph;          ///< part of the differences that a step takes away; auto: 0.01 of pbf, else 0
     float vorticity_confinement = 0.0f; ///< epsilon of Macklin & Mueller 2013, m/s
     float shifting = 0.0f;              ///< diffusion coefficient in H/2 times the speed expected of the scene
-    float surface_tension = 0.0f;       ///< N/m, the paper's model (a look)
-    float tension_threshold = 0.5f;     ///< on |n| H
+    TensionModel tension_model = TensionModel::Si;
+    float surface_tension = 0.0f;   ///< N/m, of fluids that have none of their own
+    float tension_threshold = 0.5f; ///< on |n| H, of the paper's model
     StateEquation state_equation = StateEquation::Tait;
     std::optional<float> speed_of_sound; ///< m/s; auto: 10 times the speed expected of this scene
     float gamma = 7.0f;                  ///< Tait exponent
@@ -108,6 +111,7 @@ struct FluidBody {
     FluidLattice lattice = FluidLattice::Cubic; ///< how its particles lie at the start
     float rest_density = 1000.0f;               ///< kg/m^3
     std::optional<float> viscosity;             ///< dynamic, Pa s; auto: the scene's
+    std::optional<float> surface_tension;       ///< N/m; auto: the liquid's, or the scene's (scene/materials.h)
     glm::vec3 velocity{0.0f};                   ///< m/s
     glm::mat3 velocity_gradient{
         0.0f};            ///< 1/s: adds gradient * position (a column-major glm matrix: gradient[column][row])
@@ -122,6 +126,7 @@ struct ColliderBody {
     float spacing = 0.7f;                 ///< of its boundary particles, in particle spacings
     bool solid = true;                    ///< no fluid starts inside; false: a hollow shell
     float friction = 0.0f;                ///< of fluid against it, Pa s; 0 is free slip
+    float contact_angle = 90.0f;          ///< degrees, of fluid with tension at it
     glm::vec3 color{0.55f, 0.50f, 0.44f}; ///< linear RGB
 };
 

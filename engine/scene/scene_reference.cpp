@@ -97,13 +97,14 @@ std::string_view about(std::string_view list)
 /// What liquids there are.
 std::string liquid_rows()
 {
-    std::string text = "\n### Liquids\n\n| liquid | rest_density, kg/m^3 | viscosity, Pa s | color |\n"
-                       "|---|---|---|---|\n";
+    std::string text =
+        "\n### Liquids\n\n| liquid | rest_density, kg/m^3 | viscosity, Pa s | surface_tension, N/m | color |\n"
+        "|---|---|---|---|---|\n";
     for (const Liquid& liquid : liquids()) {
-        text += fmt::format("| `{}` | {} | {} | [{}, {}, {}] |\n", liquid.name, liquid.rest_density, liquid.viscosity,
-                            liquid.color.x, liquid.color.y, liquid.color.z);
+        text += fmt::format("| `{}` | {} | {} | {} | [{}, {}, {}] |\n", liquid.name, liquid.rest_density,
+                            liquid.viscosity, liquid.surface_tension, liquid.color.x, liquid.color.y, liquid.color.z);
     }
-    return text + "\nAt 20 C, and basaltic lava at 1,200 C. All fluids of a scene have one viscosity.\n";
+    return text + "\nAt 20 C, and basaltic lava at 1,200 C.\n";
 }
 
 } // namespace

@@ -47,8 +47,7 @@ void Dfsph::record_step(gpu::Commands& commands, const Fluid& fluid, std::uint32
     record_density(commands, fluid.kernels, fluid.params, fluid.particles, fluid.grid);
     fluid.vorticity.record_xsph(commands, fluid.kernels, fluid.params, fluid.particles, fluid.grid);
     record_solve(commands, fluid, shared::SOLVE_DIVERGENCE);
-    record_forces(commands, fluid.kernels, fluid.params, fluid.particles, fluid.grid);
-    fluid.vorticity.record_confinement(commands, fluid.kernels, fluid.params, fluid.particles, fluid.grid);
+    record_accelerations(commands, fluid);
     fluid.time.record(commands, fluid.params, fluid.particles);
     record_reactions(commands, fluid, false); // now that it is known how long the forces act
     record_kick(commands, fluid.kernels, fluid.params, fluid.particles, 1.0f);

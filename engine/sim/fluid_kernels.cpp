@@ -30,7 +30,7 @@ std::uint32_t checked_tile(const gpu::DeviceInfo& device, std::uint32_t tile)
 
 } // namespace
 
-std::array<gpu::SpecConstant, 8> fluid_constants(const gpu::DeviceInfo& device, const FluidOptions& options)
+std::array<gpu::SpecConstant, 9> fluid_constants(const gpu::DeviceInfo& device, const FluidOptions& options)
 {
     // constant_id in shaders/. Tiles are for devices that fetch texels fast.
     const std::uint32_t tile = checked_tile(device, options.tile);
@@ -41,7 +41,8 @@ std::array<gpu::SpecConstant, 8> fluid_constants(const gpu::DeviceInfo& device, 
              {4, options.solver != shared::SOLVER_WCSPH ? 1u : 0u},
              {6, options.implicit_viscosity ? 1u : 0u},
              {8, options.mixed_viscosity ? 1u : 0u},
-             {10, options.dimensions}}};
+             {10, options.dimensions},
+             {12, options.colliders ? 1u : 0u}}};
 }
 
 std::uint32_t default_tile(const gpu::DeviceInfo& device)

@@ -12,7 +12,9 @@ namespace meltpoint::sim {
 struct FluidOptions {
     std::uint32_t solver = shared::SOLVER_WCSPH;
     std::uint32_t kernel = shared::KERNEL_PAPER;
-    bool tension = false;
+    bool tension = false;     ///< of the paper, a look
+    bool capillarity = false; ///< tension in SI units (sim/capillarity)
+    bool colliders = false;   ///< there are boundary particles that tension must know of
     bool xsph = false;
     bool confinement = false;
     bool shifting = false;
@@ -23,7 +25,7 @@ struct FluidOptions {
 };
 
 /// Values of the specialization constants that shaders/ agree on. Throws Input when options.tile is out of range.
-[[nodiscard]] std::array<gpu::SpecConstant, 8> fluid_constants(const gpu::DeviceInfo& device,
+[[nodiscard]] std::array<gpu::SpecConstant, 9> fluid_constants(const gpu::DeviceInfo& device,
                                                                const FluidOptions& options);
 
 /// 4 on software devices, where loading a candidate costs more than using it; 1 on GPUs.

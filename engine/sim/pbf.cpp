@@ -46,8 +46,7 @@ void Pbf::record_step(gpu::Commands& commands, const Fluid& fluid, std::uint32_t
     record_sort(commands, fluid.kernels, fluid.params, fluid.particles, fluid.grid);
     record_density(commands, fluid.kernels, fluid.params, fluid.particles, fluid.grid);
     fluid.vorticity.record_xsph(commands, fluid.kernels, fluid.params, fluid.particles, fluid.grid);
-    record_forces(commands, fluid.kernels, fluid.params, fluid.particles, fluid.grid);
-    fluid.vorticity.record_confinement(commands, fluid.kernels, fluid.params, fluid.particles, fluid.grid);
+    record_accelerations(commands, fluid);
     record_solve(commands, fluid);
     record_finish(commands, fluid, step);
 }

@@ -92,6 +92,9 @@ Simulation::Simulation(const gpu::Context& context, const ParticleSet& particles
     if (settings.options.shifting) {
         shifting_.emplace(context, settings.options);
     }
+    if (settings.options.capillarity) {
+        capillarity_.emplace(context, settings.options, params_.particle_count);
+    }
     solver_->record_start(*commands_, fluid());
     commands_->submit();
     commands_->wait();
@@ -166,6 +169,7 @@ std::uint64_t Simulation::device_bytes() const
 {
     std::uint64_t sum =
         solver_->device_bytes() + vorticity_.device_bytes() + (viscosity_ ? viscosity_->device_bytes() : 0);
+    sum += capillarity_ ? capillarity_->device_bytes() : 0;
     sum += boundary_forces_ != nullptr ? boundary_forces_->reactions().size() : 0;
     for (const gpu::Buffer* buffer : {&particles_.id,
                                       &particles_.attributes,
@@ -296,7 +300,8 @@ Simulation::BoundaryForceMeans Simulation::take_boundary_forces()
 
 void Simulation::enable_timings()
 {
-    const std::uint32_t scopes = solver_->scopes() + vorticity_.scopes() + (viscosity_ ? 1 : 0) + (shifting_ ? 1 : 0);
+    const std::uint32_t scopes =
+        solver_->scopes() + vorticity_.scopes() + (viscosity_ ? 1 : 0) + (shifting_ ? 1 : 0) + (capillarity_ ? 1 : 0);
     commands_ = std::make_unique<gpu::Commands>(*context_, max_steps_per_submission * scopes);
 }
 

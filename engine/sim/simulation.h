@@ -124,7 +124,8 @@ private:
                 vorticity_,
                 boundary_forces_.get(),
                 viscosity_ ? &*viscosity_ : nullptr,
-                shifting_ ? &*shifting_ : nullptr};
+                shifting_ ? &*shifting_ : nullptr,
+                capillarity_ ? &*capillarity_ : nullptr};
     }
     /// Of shared::Solve at a buffer's start, over the steps since `taken_at`, which is set to the present one.
     std::vector<SolveStatistics> take_statistics(const gpu::Buffer& solves, std::size_t count, std::uint64_t& taken_at);
@@ -136,6 +137,7 @@ private:
     std::unique_ptr<Solver> solver_;
     std::optional<ImplicitViscosity> viscosity_;
     std::optional<Shifting> shifting_;
+    std::optional<Capillarity> capillarity_;
     ParticleBuffers particles_;
     NeighborGrid grid_;
     gpu::Buffer params_buffer_;

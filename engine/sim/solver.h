@@ -8,6 +8,7 @@
 #include "particle_buffers/particle_buffers.h"
 #include "shared/solve.h"
 #include "sim/boundary_forces.h"
+#include "sim/capillarity.h"
 #include "sim/fluid_kernels.h"
 #include "sim/neighbor_grid.h"
 #include "sim/shifting.h"
@@ -30,6 +31,7 @@ struct Fluid {
     BoundaryForces* boundary_forces = nullptr; ///< null where nobody measures them
     ImplicitViscosity* viscosity = nullptr;    ///< null where viscosity is a force like the others
     const Shifting* shifting = nullptr;        ///< null where particles stay where their velocities lead them
+    Capillarity* capillarity = nullptr;        ///< null where no fluid has tension in SI units
 };
 
 /// Where, in a buffer of shared::Solve[SOLVES], the workgroups of a solve's next iteration are.

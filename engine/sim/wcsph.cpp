@@ -52,6 +52,15 @@ void record_forces(gpu::Commands& commands, const FluidKernels& kernels, const g
                        read(grid.neighbor_bits)});
 }
 
+void record_accelerations(gpu::Commands& commands, const Fluid& fluid)
+{
+    record_forces(commands, fluid.kernels, fluid.params, fluid.particles, fluid.grid);
+    fluid.vorticity.record_confinement(commands, fluid.kernels, fluid.params, fluid.particles, fluid.grid);
+    if (fluid.capillarity != nullptr) {
+        fluid.capillarity->record(commands, fluid.kernels, fluid.params, fluid.particles, fluid.grid);
+    }
+}
+
 void record_kick(gpu::Commands& commands, const FluidKernels& kernels, const gpu::Buffer& params,
                  const ParticleBuffers& particles, float part)
 {
@@ -75,8 +84,7 @@ void record_initial_state(gpu::Commands& commands, const Fluid& fluid)
     record_sort(commands, fluid.kernels, fluid.params, fluid.particles, fluid.grid);
     record_boundary_weight(commands, fluid.kernels, fluid.params, fluid.particles, fluid.grid);
     record_density(commands, fluid.kernels, fluid.params, fluid.particles, fluid.grid);
-    record_forces(commands, fluid.kernels, fluid.params, fluid.particles, fluid.grid);
-    fluid.vorticity.record_confinement(commands, fluid.kernels, fluid.params, fluid.particles, fluid.grid);
+    record_accelerations(commands, fluid);
 }
 
 void Wcsph::record_start(gpu::Commands& commands, const Fluid& fluid)
@@ -91,8 +99,7 @@ void Wcsph::record_step(gpu::Commands& commands, const Fluid& fluid, std::uint32
     record_sort(commands, fluid.kernels, fluid.params, fluid.particles, fluid.grid);
     record_density(commands, fluid.kernels, fluid.params, fluid.particles, fluid.grid);
     fluid.vorticity.record_xsph(commands, fluid.kernels, fluid.params, fluid.particles, fluid.grid);
-    record_forces(commands, fluid.kernels, fluid.params, fluid.particles, fluid.grid);
-    fluid.vorticity.record_confinement(commands, fluid.kernels, fluid.params, fluid.particles, fluid.grid);
+    record_accelerations(commands, fluid);
     record_reactions(commands, fluid, false);
     record_kick(commands, fluid.kernels, fluid.params, fluid.particles);
     if (fluid.viscosity != nullptr) {

@@ -27,6 +27,8 @@ void record_forces(gpu::Commands& commands, const FluidKernels& kernels, const g
                    const ParticleBuffers& particles, const NeighborGrid& grid);
 
 /// v += a dt times `part`.
+/// Forces, and what else the fluid's options add to the accelerations.
+void record_accelerations(gpu::Commands& commands, const Fluid& fluid);
 void record_kick(gpu::Commands& commands, const FluidKernels& kernels, const gpu::Buffer& params,
                  const ParticleBuffers& particles, float part = 0.5f);
 

@@ -131,6 +131,14 @@ struct SphParams {
     float rest_density[MAX_MATERIALS]; // kg/m^3, of fluids
     float viscosity[MAX_MATERIALS];    // dynamic, mu, Pa s, of fluids
     float friction[MAX_MATERIALS];     // dynamic viscosity of fluid against colliders, Pa s; 0 is free slip
+
+    // Surface tension in SI units (shared/capillarity.h).
+    float tension[MAX_MATERIALS];        // sigma, N/m, of fluids
+    float contact_cosine[MAX_MATERIALS]; // of the contact angle of fluid at colliders
+    float wall_contact_cosine;           // and at walls
+    float first_layer_steepness;         // |n'| H of smoothed normals in the outermost layer of a lattice with a flat surface
+    float second_layer_steepness;        // and in the next one
+    float share_beyond_solid;            // of n in the lowest layer on a solid, what fluid in its place would add
 };
 
 SHARED_END

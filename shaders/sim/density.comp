@@ -4,8 +4,8 @@
 // Density and pressure: rho_i = m_i sum_j s_j W_ij over the particles and their images in the walls, s_j their weights
 // (Solenthaler & Pajarola 2008; Akinci et al. 2012), then the state equation; and what the forces need of both. Where pressure
 // is solved for, there is no state equation but the diagonal of the solve (Bender & Koschier 2015, their factor alpha): with
-// g_ij = -grad W_ij, 1 / (|sum_j s_j g_ij|^2 / m_i + sum_j |g_ij|^2 / m_j), the latter over fluid. Boundary particles have
-// none of these. Twins: engine/reference/density.cpp, dfsph.cpp.
+// g_ij = -grad W_ij, gradient_scale / (|sum_j s_j g_ij|^2 / m_i + sum_j |g_ij|^2 / m_j), the latter over fluid: without the
+// scale it would be too small for a float where particles are a tenth of a millimeter fine. Boundary particles have none of these. Twins: engine/reference/density.cpp, dfsph.cpp.
 #define CELL_START_BINDING 1
 #define FINDS_NEIGHBORS
 #define NEIGHBOR_BITS_BINDING 10
@@ -106,8 +106,7 @@ void main()
         vec4 its_interaction = vec4(0.0, volume, params.viscosity_scale * viscosity * volume, 0.0);
         if (SOLVED_PRESSURE) {
             float response = dot(gradient[k], gradient[k]) / mass + gradient_squares[k];
-            float squared_scale = params.gradient_scale * params.gradient_scale;
-            its_interaction.w = !boundary && response > 0.0 ? 1.0 / (squared_scale * response) : 0.0;
+            its_interaction.w = !boundary && response > 0.0 ? 1.0 / (params.gradient_scale * response) : 0.0;
         } else {
             float p = boundary ? 0.0 : state_equation(rho, params.rest_density[material]);
             pressure[i] = p;

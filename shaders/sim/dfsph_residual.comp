@@ -115,7 +115,7 @@ void main()
             } else {
                 warm_start[i][push.solve] = acted * unit;
             }
-            float response = params.solve_relaxation * params.gradient_scale * its_interaction.w / (params.dt * rest_volume);
+            float response = params.solve_relaxation * its_interaction.w / (params.dt * rest_volume);
             float next = max(acted + response * excess, 0.0);
             jacobi_step[i] = next;
             interaction[i].x = max(next + momentum * (next - before), 0.0);

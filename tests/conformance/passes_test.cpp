@@ -231,6 +231,17 @@ TEST_P(PassConformance, XsphAndConfinement)
     }
 }
 
+TEST_P(PassConformance, SurfaceTension)
+{
+    const auto [state, kernel] = GetParam();
+    sim::SimulationSettings settings = with_tension(test_settings(kernel));
+    for (const std::uint32_t tile : {1u, 4u}) {
+        SCOPED_TRACE(tile);
+        settings.options.tile = tile;
+        expect_conformance(settings, states()[state].make());
+    }
+}
+
 // Three fluids side by side that differ in density and viscosity, one of which has none.
 TEST_P(PassConformance, SeveralFluids)
 {

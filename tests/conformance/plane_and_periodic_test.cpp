@@ -29,6 +29,7 @@ sim::SimulationSettings with_all_options(sim::SimulationSettings settings, std::
     settings.params.vorticity_confinement = 2.0f;
     settings.params.surface_tension = 0.5f;
     settings.params.tension_threshold = 0.5f;
+    settings = with_tension(settings);
     settings.params.wall_viscosity = 20.0f;
     settings.params.lid_velocity = glm::vec3(0.7f, 0.0f, 0.0f);
     settings.params.friction[1] = 10.0f;

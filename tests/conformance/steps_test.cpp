@@ -138,6 +138,15 @@ TEST_F(Steps, StepsWithXsphAndConfinementAreTheTwins)
     }
 }
 
+TEST_F(Steps, StepsWithSurfaceTensionAreTheTwins)
+{
+    for (const sim::SimulationSettings& settings :
+         {test_settings(shared::KERNEL_WENDLAND), dfsph_settings(shared::KERNEL_WENDLAND),
+          pbf_settings(shared::KERNEL_WENDLAND)}) {
+        expect_all(conformance::compare_steps(context(), falling_block(), with_tension(settings), 3));
+    }
+}
+
 // Alone it never reaches rest density, so nothing but the contact holds it.
 TEST_F(Steps, WallsHoldALoneParticle)
 {

@@ -1,5 +1,6 @@
 #include "run/fluid_settings.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include <gtest/gtest.h>
@@ -7,6 +8,7 @@
 #include "core/error.h"
 #include "particles/sph_kernel.h"
 #include "run/scene_particles.h"
+#include "scene/liquids.h"
 
 namespace meltpoint {
 namespace {
@@ -95,6 +97,79 @@ TEST(FluidSettings, TheLightestFluidBoundsTheViscousStep)
     heavy.rest_density = 3000.0f;
     scene.fluids.insert(scene.fluids.begin(), heavy);
     EXPECT_NEAR(time_step_bounds(scene, 40.0, 4.0).viscosity, 0.06 * 1000.0 * 0.04 / 5.0, 1e-7);
+}
+
+TEST(FluidSettings, NamedLiquidsHaveTheirTensionWhereParticlesAreFineEnough)
+{
+    Scene scene = falling_block();
+    EXPECT_FALSE(settings_of(scene).simulation.options.capillarity);
+    const double bound_without = time_step_bounds(scene, 40.0, 4.0).tension;
+    EXPECT_TRUE(std::isinf(bound_without));
+
+    set_liquid(scene.fluids[0], *find_liquid("water")); // capillary length 2.7 mm
+    EXPECT_FALSE(settings_of(scene).simulation.options.capillarity);
+    const auto scaled = [](float factor) {
+        Scene small = falling_block();
+        set_liquid(small.fluids[0], *find_liquid("water"));
+        small.domain.min *= factor;
+        small.domain.max *= factor;
+        auto& block = std::get<BlockShape>(small.fluids[0].shape);
+        block.min *= factor;
+        block.max *= factor;
+        small.particles.spacing *= factor;
+        return small;
+    };
+    EXPECT_FALSE(settings_of(scaled(0.0028f / scene.particles.spacing)).simulation.options.capillarity);
+    Scene fine = scaled(0.0026f / scene.particles.spacing);
+    const FluidSettings settings = settings_of(fine);
+    EXPECT_TRUE(settings.simulation.options.capillarity);
+    EXPECT_FALSE(settings.simulation.options.tension); // that is the paper's
+    EXPECT_FALSE(settings.simulation.options.colliders);
+    EXPECT_EQ(settings.simulation.params.tension[0], find_liquid("water")->surface_tension);
+    const double d = static_cast<double>(fine.particles.spacing);
+    const double bound = 0.2 * std::sqrt(998.2 * d * d * d / 0.0728);
+    EXPECT_NEAR(time_step_bounds(fine, 1.0, 1.0).tension, bound, 1e-4 * bound);
+    EXPECT_LE(static_cast<double>(settings.simulation.params.longest_dt), bound * (1.0 + 1e-6));
+
+    fine.fluids[0].surface_tension = 0.0f;
+    EXPECT_FALSE(settings_of(fine).simulation.options.capillarity);
+    scene.fluids[0].surface_tension = 0.5f; // whoever says so gets it at any size
+    EXPECT_TRUE(settings_of(scene).simulation.options.capillarity);
+}
+
+TEST(FluidSettings, ThePapersTensionIsAnotherOne)
+{
+    Scene scene = falling_block();
+    scene.physics.surface_tension = 0.5f;
+    sim::SimulationSettings settings = settings_of(scene).simulation;
+    EXPECT_TRUE(settings.options.capillarity);
+    EXPECT_FALSE(settings.options.tension);
+    EXPECT_EQ(settings.params.tension[0], 0.5f);
+    scene.physics.tension_model = TensionModel::Paper;
+    settings = settings_of(scene).simulation;
+    EXPECT_FALSE(settings.options.capillarity);
+    EXPECT_TRUE(settings.options.tension);
+    EXPECT_EQ(settings.params.surface_tension, 0.5f);
+
+    scene.physics.tension_model = TensionModel::Si;
+    scene.fluids[0].surface_tension = 0.1f;
+    const FluidSettings idle = settings_of(scene);
+    EXPECT_TRUE(std::ranges::any_of(idle.warnings, [](const std::string& warning) {
+        return warning.find("physics.surface_tension is used by no fluid") != std::string::npos;
+    }));
+}
+
+TEST(FluidSettings, ContactAnglesAreCosinesOnTheDevice)
+{
+    Scene scene = falling_block();
+    scene.fluids[0].surface_tension = 0.5f;
+    scene.domain.contact_angle = 60.0f;
+    const float wide = 0.5f * scene.particles.spacing;
+    scene.colliders.push_back({.shape = SphereShape{{0.5f, 0.2f, 0.0f}, 4.0f * wide}, .contact_angle = 180.0f});
+    const sim::SimulationSettings settings = settings_of(scene).simulation;
+    EXPECT_TRUE(settings.options.colliders);
+    EXPECT_FLOAT_EQ(settings.params.wall_contact_cosine, 0.5f);
+    EXPECT_FLOAT_EQ(settings.params.contact_cosine[1], -1.0f);
 }
 
 TEST(FluidSettings, AutomaticStepsAreTheDevices)

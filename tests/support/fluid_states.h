@@ -53,6 +53,16 @@ inline sim::SimulationSettings test_settings(std::uint32_t kernel)
     return settings;
 }
 
+/// Tension that moves fluid as fast as gravity does, on floors that it wets and colliders that it does not.
+inline sim::SimulationSettings with_tension(sim::SimulationSettings settings)
+{
+    settings.options.capillarity = settings.options.colliders = true;
+    settings.params.tension[0] = 10.0f * test_rest_density * test_spacing * test_spacing;
+    settings.params.contact_cosine[1] = -0.4f;
+    settings.params.wall_contact_cosine = 0.3f;
+    return settings;
+}
+
 /// By value: the position may be one of the set's own, which resizing moves.
 inline void add_particle(ParticleSet& set, glm::vec3 position, glm::vec3 velocity = glm::vec3(0.0f))
 {

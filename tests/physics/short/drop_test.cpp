@@ -1,0 +1,43 @@
+// Drops, coarse; and that a tension 20 % off is noticed.
+#include "support/gpu_test.h"
+#include "validation/drop.h"
+
+namespace meltpoint::validation {
+namespace {
+
+class ShortDrop : public GpuTest {
+protected:
+    static Host host() { return {.context = context()}; }
+};
+
+TEST_F(ShortDrop, HasLaplacesPressure)
+{
+    const DropSettings disk{.radius = 8.0, .dimensions = 2, .support_ratio = 3.0f};
+    DropSettings tighter = disk;
+    tighter.tension_factor = 1.2;
+    const double pressure = measure_laplace(host(), disk);
+    EXPECT_NEAR(pressure, 1.0, 0.15);
+    EXPECT_NEAR(measure_laplace(host(), tighter) / pressure, 1.2, 0.05);
+}
+
+// Its solver once had numbers too small for floats where particles are that fine.
+TEST_F(ShortDrop, HasLaplacesPressureInDfsph)
+{
+    EXPECT_NEAR(measure_laplace(host(), {.radius = 8.0, .solver = Solver::Dfsph}), 1.0, 0.15);
+}
+
+TEST_F(ShortDrop, SwingsAsRayleighSays)
+{
+    const DropSettings drop{.radius = 6.0};
+    EXPECT_NEAR(measure_swing(host(), drop).period, 1.0, 0.1);
+    EXPECT_LT(measure_swing(host(), {.radius = 6.0, .tension_factor = 1.44}).period, 0.9);
+}
+
+TEST_F(ShortDrop, MeetsTheFloorAtItsContactAngle)
+{
+    EXPECT_NEAR(measure_contact_angle(host(), {.angle = 60.0f, .across = 10.0}), 60.0, 20.0);
+    EXPECT_NEAR(measure_contact_angle(host(), {.angle = 120.0f, .across = 10.0}), 120.0, 20.0);
+}
+
+} // namespace
+} // namespace meltpoint::validation
