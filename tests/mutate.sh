@@ -637,6 +637,46 @@ mutation "confinement: it slows vortices down" \
     'cross(n, vorticity[i].xyz)' \
     'cross(vorticity[i].xyz, n)' \
     physics_short_tests 'Vortex.Confinement*'
+mutation "tension: normals are seen in mirrors" \
+    shaders/include/capillarity.glsl \
+    '? 1.0 : 0.0; }' \
+    '? 1.0 : 1.0; }' \
+    conformance_tests '*PassConformance.SurfaceTension/LatticeOnTheFloor*'
+mutation "tension: curvature at the particle, not at the surface" \
+    shaders/sim/capillarity.comp \
+    'float surface = below / (1.0 + max(turn, -0.5))' \
+    'float surface = below' \
+    conformance_tests '*PassConformance.SurfaceTension/Splash*'
+mutation "tension: a quarter too weak" \
+    engine/scene/materials.h \
+    'liquid->surface_tension : 0.0f' \
+    '0.75f * liquid->surface_tension : 0.0f' \
+    unit_tests 'FluidSettings.NamedLiquids*'
+mutation "tension: half of it" \
+    shaders/sim/capillarity.comp \
+    'vec3 a = 2.0 * sigma[k]' \
+    'vec3 a = sigma[k]' \
+    physics_short_tests 'ShortDrop.HasLaplacesPressure'
+mutation "tension: crowded pairs are not parted" \
+    shaders/sim/capillarity.comp \
+    'max(1.0 - r / crowding_distance, 0.0) - cling' \
+    '-cling' \
+    conformance_tests '*PassConformance.SurfaceTension/Random*'
+mutation "tension: contact angles inside out" \
+    shaders/sim/surface_normal.comp \
+    'sine * inward - solid.cosine * solid.normal' \
+    'sine * inward + solid.cosine * solid.normal' \
+    physics_short_tests 'ShortDrop.MeetsTheFloor*'
+mutation "tension: wrong layers" \
+    engine/particles/sph_kernel.cpp \
+    '.second = steepness[1]' \
+    '.second = steepness[2]' \
+    unit_tests 'ReferenceCapillarity.ConstantsOf*'
+mutation "solve: numbers too small for a float" \
+    shaders/sim/density.comp \
+    '1.0 / (params.gradient_scale * response)' \
+    '1.0 / (params.gradient_scale * params.gradient_scale * response) * params.gradient_scale' \
+    physics_short_tests 'ShortDrop.HasLaplacesPressureInDfsph'
 mutation "solve: too strong a relaxation" \
     engine/particles/sph_kernel.cpp \
     'std::min(0.5, relaxation / eigenvalue' \

@@ -59,7 +59,7 @@ std::span<const Case> cases()
         {"column", "A column of water", "Pressure and depth at rest against rho g (h - y).", run_column},
         {"still_water", "Still water", "A column left alone for ten seconds.", run_still_water},
         {"laplace", "Pressure in a drop",
-         "A drop of water at rest without weight against Laplace (1806): 2 sigma/R, in two dimensions sigma/R.",
+         "A drop of water at rest without weight against Laplace (1806): 2 sigma/R.",
          run_laplace},
         {"drop", "A drop swings", "The period of a drop that was drawn out against Rayleigh (1879) and Lamb (1932).",
          run_drop},

@@ -143,6 +143,7 @@ double measure_laplace(const Host& host, const DropSettings& settings)
     constexpr std::size_t samples = 60;
     Scene scene = drop_scene(settings);
     scene.fluids[0].viscosity = static_cast<float>(0.1 * viscosity_unit(radius / settings.radius));
+    scene.solve.density_error = 2e-5f; // a solve that ends at 5e-4 leaves a tenth of the pressure open
     SceneRun run(host, scene, drop_particles(scene), samples);
     const double drop_radius = radius_of(run.particles(), settings);
     const double inner_radius =
@@ -200,20 +201,13 @@ double measure_contact_angle(const Host& host, const ContactSettings& settings)
         return static_cast<float>(x);
     };
     Scene scene = tension_scene(fmt::format("contact angle {:g}", settings.angle), spacing, 1.0);
-    const double floor = settings.collider ? 4.0 * spacing : 0.0;
     scene.domain.min = glm::vec3(m(-2.5 * radius), 0.0f, m(-2.5 * radius));
     scene.domain.max = glm::vec3(m(2.5 * radius), m(2.5 * radius), m(2.5 * radius));
-    const glm::vec3 low(m(-0.5 * width), m(floor), m(-0.5 * width));
-    const glm::vec3 high(m(0.5 * width), m(floor + radius), m(0.5 * width));
+    const glm::vec3 low(m(-0.5 * width), 0.0f, m(-0.5 * width));
+    const glm::vec3 high(m(0.5 * width), m(radius), m(0.5 * width));
     scene.fluids[0].shape = BlockShape{low, high};
     scene.fluids[0].viscosity = m(0.25 * viscosity_unit(spacing));
-    if (settings.collider) {
-        scene.colliders.push_back({.shape = BlockShape{{m(-1.6 * radius), m(2.0 * spacing), m(-1.6 * radius)},
-                                                       {m(1.6 * radius), m(floor), m(1.6 * radius)}},
-                                   .contact_angle = settings.angle});
-    } else {
-        scene.domain.contact_angle = settings.angle;
-    }
+    scene.domain.contact_angle = settings.angle;
     SceneRun run(host, scene, samples);
     double height = 0.0;
     double count = 0.0;
@@ -229,7 +223,7 @@ double measure_contact_angle(const Host& host, const ContactSettings& settings)
             const bool splash =
                 static_cast<double>(set.density[i]) < 0.6 * rest_density(); // that the block's corners made
             if (!splash) {
-                highest = std::max(highest, static_cast<double>(set.position[i].y) - floor + 0.5 * spacing);
+                highest = std::max(highest, static_cast<double>(set.position[i].y) + 0.5 * spacing);
             }
             count += 1.0;
         }
@@ -259,9 +253,8 @@ Outcome run_laplace(const Host& host)
         }
         plot.curves.push_back(curve);
     };
-    measure("two dimensions", {.dimensions = 2, .support_ratio = 3.0f}, {10.0, 20.0, 40.0});
     measure("wcsph", {}, {8.0, 12.0, 16.0});
-    measure("dfsph", {.solver = Solver::Dfsph}, {8.0, 12.0, 16.0});
+    measure("dfsph", {.solver = Solver::Dfsph}, {8.0, 12.0});
     outcome.figures.push_back({"laplace.svg", plot});
     return outcome;
 }
@@ -297,17 +290,15 @@ Outcome run_contact_angle(const Host& host)
                         .y_label = "of the cap",
                         .curves = {},
                         .scale = plot::Scale::Linear};
-    for (const bool collider : {false, true}) {
-        plot::Curve curve{collider ? "on a collider" : "on the domain's floor", {}};
-        for (const float angle : {60.0f, 90.0f, 120.0f}) {
-            const double measured = measure_contact_angle(host, {.angle = angle, .collider = collider});
-            const double wanted = static_cast<double>(angle);
-            outcome.measurements.push_back(within(fmt::format("{} of {:g} degrees: degrees", curve.name, angle),
-                                                  measured, wanted - 15.0, wanted + 15.0));
-            curve.points.emplace_back(wanted, measured);
-        }
-        plot.curves.push_back(curve);
+    plot::Curve curve{"measured", {}};
+    for (const float angle : {60.0f, 90.0f, 120.0f}) {
+        const double measured = measure_contact_angle(host, {.angle = angle});
+        const double wanted = static_cast<double>(angle);
+        outcome.measurements.push_back(
+            within(fmt::format("angle of {:g} degrees: degrees", angle), measured, wanted - 10.0, wanted + 10.0));
+        curve.points.emplace_back(wanted, measured);
     }
+    plot.curves.push_back(curve);
     outcome.figures.push_back({"contact_angle.svg", plot});
     return outcome;
 }

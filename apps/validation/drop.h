@@ -31,11 +31,10 @@ struct DropSwing {
 /// For one and a half periods: 2 pi/omega, omega^2 = 8 sigma/(rho R^3), in two dimensions 6 (Rayleigh 1879, Lamb 1932).
 [[nodiscard]] DropSwing measure_swing(const Host& host, const DropSettings& settings);
 
-/// Half a drop on a floor.
+/// Water on the domain's floor.
 struct ContactSettings {
-    float angle = 90.0f;   ///< degrees
-    bool collider = false; ///< the floor is one, instead of the domain's wall
-    double across = 16.0;  ///< width of the block of water that it starts as, in spacings
+    float angle = 90.0f;  ///< degrees
+    double across = 16.0; ///< width of the block of water that it starts as, in spacings
 };
 /// The angle that the block has come to, in degrees: of the spherical cap of its volume and height.
 [[nodiscard]] double measure_contact_angle(const Host& host, const ContactSettings& settings);

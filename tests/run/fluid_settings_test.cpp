@@ -468,6 +468,7 @@ TEST(FluidSettings, MapsTheScene)
     scene.physics.state_equation = StateEquation::Linear;
     scene.physics.clamp_pressure = false;
     scene.physics.surface_tension = 0.1f;
+    scene.physics.tension_model = TensionModel::Paper;
     scene.domain.walls = false;
     scene.fluids[0].rest_density = 800.0f;
     FluidBody second = scene.fluids[0];

@@ -12,12 +12,8 @@ protected:
 
 TEST_F(ShortDrop, HasLaplacesPressure)
 {
-    const DropSettings disk{.radius = 8.0, .dimensions = 2, .support_ratio = 3.0f};
-    DropSettings tighter = disk;
-    tighter.tension_factor = 1.2;
-    const double pressure = measure_laplace(host(), disk);
-    EXPECT_NEAR(pressure, 1.0, 0.15);
-    EXPECT_NEAR(measure_laplace(host(), tighter) / pressure, 1.2, 0.05);
+    EXPECT_NEAR(measure_laplace(host(), {.radius = 8.0}), 1.0, 0.1);
+    EXPECT_GT(measure_laplace(host(), {.radius = 8.0, .tension_factor = 1.2}), 1.1);
 }
 
 // Its solver once had numbers too small for floats where particles are that fine.
