@@ -254,7 +254,6 @@ Outcome run_laplace(const Host& host)
         plot.curves.push_back(curve);
     };
     measure("wcsph", {}, {8.0, 12.0, 16.0});
-    measure("dfsph", {.solver = Solver::Dfsph}, {8.0, 12.0});
     outcome.figures.push_back({"laplace.svg", plot});
     return outcome;
 }
