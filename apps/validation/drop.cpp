@@ -210,26 +210,20 @@ double measure_contact_angle(const Host& host, const ContactSettings& settings)
     scene.domain.contact_angle = settings.angle;
     SceneRun run(host, scene, samples);
     double height = 0.0;
-    double count = 0.0;
     for (std::size_t sample = 1; sample <= samples; ++sample) {
         run.advance_by(6.0 * capillary_time() / samples);
         const ParticleSet& set = run.particles();
         double highest = 0.0;
-        count = 0.0;
         for (std::size_t i = 0; i < set.size(); ++i) {
-            if (shared::is_boundary(set.attributes[i])) {
-                continue;
-            }
             const bool splash =
                 static_cast<double>(set.density[i]) < 0.6 * rest_density(); // that the block's corners made
             if (!splash) {
                 highest = std::max(highest, static_cast<double>(set.position[i].y) + 0.5 * spacing);
             }
-            count += 1.0;
         }
         height += sample > samples - averaged ? highest / averaged : 0.0;
     }
-    const double volume = count * std::pow(spacing, 3.0);
+    const double volume = static_cast<double>(run.particles().size()) * std::pow(spacing, 3.0);
     const double sphere = (3.0 * volume / (pi * height * height) + height) / 3.0; // V = pi h^2 (3 R - h) / 3
     return std::acos(std::clamp(1.0 - height / sphere, -1.0, 1.0)) * 180.0 / pi;
 }
@@ -242,18 +236,14 @@ Outcome run_laplace(const Host& host)
                         .y_label = "measured / exact",
                         .curves = {},
                         .scale = plot::Scale::Linear};
-    const auto measure = [&](std::string_view name, DropSettings settings, const std::vector<double>& radii) {
-        plot::Curve curve{std::string(name), {}};
-        for (const double size : radii) {
-            settings.radius = size;
-            const double pressure = measure_laplace(host, settings);
-            outcome.measurements.push_back(within(
-                fmt::format("{}, radius {:g} d: pressure, in parts of sigma kappa", name, size), pressure, 0.9, 1.1));
-            curve.points.emplace_back(size, pressure);
-        }
-        plot.curves.push_back(curve);
-    };
-    measure("wcsph", {}, {8.0, 12.0, 16.0});
+    plot::Curve curve{"wcsph", {}};
+    for (const double size : {8.0, 12.0, 16.0}) {
+        const double pressure = measure_laplace(host, {.radius = size});
+        outcome.measurements.push_back(
+            within(fmt::format("wcsph, radius {:g} d: pressure, in parts of sigma kappa", size), pressure, 0.9, 1.1));
+        curve.points.emplace_back(size, pressure);
+    }
+    plot.curves.push_back(curve);
     outcome.figures.push_back({"laplace.svg", plot});
     return outcome;
 }
@@ -270,13 +260,13 @@ Outcome run_drop(const Host& host)
         const DropSwing swing = measure_swing(host, settings);
         outcome.measurements.push_back(
             within(fmt::format("{}, radius {:g} d: period, in parts of the exact one", name, settings.radius),
-                   swing.period, 0.9, 1.1));
+                   swing.period, 0.93, 1.07)); // tension a fifth off is out of it
         plot.curves.push_back({fmt::format("{}, radius {:g} d", name, settings.radius), swing.stretch});
     };
     measure("wcsph", {.radius = 8.0});
     measure("wcsph", {.radius = 12.0});
     measure("dfsph", {.radius = 12.0, .solver = Solver::Dfsph});
-    measure("two dimensions", {.radius = 20.0, .dimensions = 2, .support_ratio = 3.0f});
+    measure("plane", {.radius = 20.0, .dimensions = 2, .support_ratio = 3.0f});
     outcome.figures.push_back({"drop.svg", plot});
     return outcome;
 }
