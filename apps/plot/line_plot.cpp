@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdint>
 #include <limits>
 
 #include <fmt/format.h>
@@ -43,14 +44,16 @@ std::vector<double> logarithmic_ticks(double smallest, double largest)
 /// Four to ten multiples of 1, 2 or 5 times a power of ten, likewise.
 std::vector<double> linear_ticks(double smallest, double largest)
 {
-    const double span = largest > smallest ? largest - smallest : std::max(std::abs(largest), 1.0);
+    // Ticks closer than this would not differ in what is written beside them, or not even as numbers.
+    const double least_span = 1e-9 * std::max(std::abs(smallest), std::abs(largest));
+    const double span = largest - smallest > least_span ? largest - smallest : std::max(std::abs(largest), 1.0);
     const double decade = std::pow(10.0, std::floor(std::log10(span)));
     const double step = decade * (span > 5.0 * decade ? 1.0 : span > 2.0 * decade ? 0.5 : 0.2);
-    const double first = std::floor(smallest / step + 1e-9);
-    const double last = std::max(std::ceil(largest / step - 1e-9), first + 1.0);
+    const auto first = static_cast<std::int64_t>(std::floor(smallest / step + 1e-9));
+    const auto last = std::max(static_cast<std::int64_t>(std::ceil(largest / step - 1e-9)), first + 1);
     std::vector<double> ticks;
-    for (double k = first; k <= last; k += 1.0) {
-        ticks.push_back(k * step);
+    for (std::int64_t k = first; k <= last; ++k) {
+        ticks.push_back(static_cast<double>(k) * step);
     }
     return ticks;
 }

@@ -85,6 +85,17 @@ TEST(LinePlot, OnePointIsDrawn)
     }
 }
 
+// So large that a step of the axis is less than the number's last digit.
+TEST(LinePlot, LargeNumbersThatHardlyDifferAreDrawn)
+{
+    const std::string svg =
+        plot::to_svg({"t", "x", "y", {{"a", {{0.0, 1e17}, {1.0, 1e17 + 16.0}}}}, plot::Scale::Linear});
+    const std::vector<double> y = heights(svg);
+    ASSERT_EQ(y.size(), 2u);
+    EXPECT_NEAR(y[0], y[1], 0.1);
+    EXPECT_EQ(svg.find("nan"), std::string::npos);
+}
+
 TEST(LinePlot, WhatHasNoPlaceIsRefused)
 {
     const double nan = std::numeric_limits<double>::quiet_NaN();
