@@ -1,5 +1,7 @@
+#include <array>
+#include <bit>
 #include <cmath>
-#include <cstring>
+#include <cstdint>
 #include <memory>
 #include <stdexcept>
 #include <string>
@@ -139,7 +141,8 @@ ParticleSet follow_step(conformance::Device& device, std::uint32_t particle, std
 
 bool same_bits(const glm::vec3& a, const glm::vec3& b)
 {
-    return std::memcmp(&a, &b, sizeof(a)) == 0;
+    using Words = std::array<std::uint32_t, 3>;
+    return std::bit_cast<Words>(a) == std::bit_cast<Words>(b);
 }
 
 /// Throws unless the passes one by one have done what a step of the simulation does.
@@ -225,6 +228,27 @@ void follow_to_pixel(const gpu::Context& context, const Scene& scene, const sim:
           image.rgba[texel + 1], image.rgba[texel + 2]);
 }
 
+/// Throws where a step has other passes than those that follow_step takes apart.
+void require_plain_step(const Scene& scene, const sim::FluidOptions& options)
+{
+    struct Other {
+        bool is_on;
+        const char* name;
+        const char* without;
+    };
+    for (const Other& other : {
+             Other{options.implicit_viscosity, "explicit viscosity", "physics.viscosity_model=explicit"},
+             Other{options.capillarity, "surface tension of the paper", "physics.tension_model=paper"},
+             Other{options.xsph, "steps without XSPH", "physics.xsph=0"},
+             Other{options.confinement, "steps without confinement", "physics.vorticity_confinement=0"},
+             Other{options.shifting, "steps without shifting", "physics.shifting=0"},
+         }) {
+        if (other.is_on) {
+            throw input_error("{}: follow knows {} alone (--set {})", scene.name, other.name, other.without);
+        }
+    }
+}
+
 int follow(const FollowOptions& options)
 {
     const Scene scene = load_scene(options.scene);
@@ -240,10 +264,7 @@ int follow(const FollowOptions& options)
         throw input_error("--particle {}: {} has particles 0 to {}", options.particle, scene.name, initial.size() - 1);
     }
     const sim::SimulationSettings settings = with_fixed_steps(fluid_settings(scene, initial).simulation);
-    if (settings.options.implicit_viscosity) {
-        throw input_error("{}: follow knows explicit viscosity alone (--set physics.viscosity_model=explicit)",
-                          scene.name);
-    }
+    require_plain_step(scene, settings.options);
     print_start(scene, initial, options.particle);
 
     sim::Simulation simulation(context, initial, settings);

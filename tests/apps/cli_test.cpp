@@ -126,9 +126,9 @@ TEST_F(Cli, WrongUsageExitsWithTwo)
         EXPECT_EQ(result.out, "") << testing::PrintToString(arguments);
         EXPECT_NE(result.err, "") << testing::PrintToString(arguments);
     }
-    expect_one_sentence(
-        run({"nonsense"}), 2,
-        "there is no subcommand \"nonsense\"; there are render, sample, compare, follow, bench, report, validate, info");
+    expect_one_sentence(run({"nonsense"}), 2,
+                        "there is no subcommand \"nonsense\"; there are render, sample, compare, follow, bench, "
+                        "report, validate, info");
     EXPECT_TRUE(files(".").empty());
 }
 
@@ -203,6 +203,13 @@ TEST_F(Cli, BadInputIsOneSentenceAndExitsWithTwo)
     }
     expect_one_sentence(run({"follow", "drop", "--particle", "99999999"}), 2, "drop has particles 0 to");
     expect_one_sentence(run({"follow", "drop", "--set", "solver=dfsph"}), 2, "the passes of solver \"wcsph\" alone");
+    expect_one_sentence(run({"follow", "lid_driven_cavity"}), 2,
+                        "steps without shifting alone (--set physics.shifting=0)");
+    expect_one_sentence(run({"follow", "water_drops", "--set", "solver=wcsph"}), 2,
+                        "--set physics.tension_model=paper");
+    for (const char* key : {"physics.xsph", "physics.vorticity_confinement"}) {
+        expect_one_sentence(run({"follow", "drop", "--set", std::string(key) + "=0.1"}), 2, std::string(key) + "=0");
+    }
     expect_one_sentence(run({"follow", "splat_sphere"}), 2, "splat_sphere has no particles to follow");
     EXPECT_FALSE(fs::exists(path("out")) && !fs::is_empty(path("out/drop")));
     EXPECT_TRUE(fs::exists("/dev/full") && !fs::is_regular_file("/dev/full"));
