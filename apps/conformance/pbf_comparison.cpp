@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <string>
+#include <utility>
 
 #include "conformance/relative_error.h"
 #include "reference/pbf.h"
@@ -15,8 +16,8 @@ namespace {
 class PbfComparison {
 public:
     PbfComparison(Device& device, const sim::FluidOptions& options, const reference::Settings& settings,
-                  const reference::State& twin, const reference::Neighbors& neighbors)
-        : device_(device), settings_(settings), twin_(twin), neighbors_(neighbors),
+                  reference::State twin, const reference::Neighbors& neighbors)
+        : device_(device), settings_(settings), twin_(std::move(twin)), neighbors_(neighbors),
           pbf_(device.context, options, device.params), scale_(static_cast<double>(device.params.gradient_scale))
     {
     }

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "conformance/relative_error.h"
 #include "core/random.h"
@@ -17,8 +18,8 @@ using Vectors = std::vector<glm::dvec3>;
 class ViscosityComparison {
 public:
     ViscosityComparison(Device& device, const sim::FluidOptions& options, const reference::Settings& settings,
-                        const reference::State& twin, const reference::Neighbors& neighbors)
-        : device_(device), settings_(settings), twin_(twin), neighbors_(neighbors),
+                        reference::State twin, const reference::Neighbors& neighbors)
+        : device_(device), settings_(settings), twin_(std::move(twin)), neighbors_(neighbors),
           viscosity_(device.context, options, device.params)
     {
         stir();

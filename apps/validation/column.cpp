@@ -41,11 +41,11 @@ double compression(const ColumnSettings& settings)
     return settings.solver == Solver::Wcsph ? gravity * height / (speed_of_sound * speed_of_sound) : 0.0;
 }
 
-double mean(const std::vector<double>& values, std::size_t first, std::size_t last)
+double mean(const std::vector<double>& values, std::size_t begin, std::size_t end)
 {
-    return std::accumulate(values.begin() + static_cast<std::ptrdiff_t>(first),
-                           values.begin() + static_cast<std::ptrdiff_t>(last), 0.0) /
-           static_cast<double>(last - first);
+    return std::accumulate(values.begin() + static_cast<std::ptrdiff_t>(begin),
+                           values.begin() + static_cast<std::ptrdiff_t>(end), 0.0) /
+           static_cast<double>(end - begin);
 }
 
 /// By layer: y/h, and p/(rho g h).

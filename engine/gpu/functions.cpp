@@ -8,11 +8,13 @@
 
 // Of volk.c, as cmake/volk.cmake names them.
 extern "C" {
+// NOLINTBEGIN(readability-identifier-naming): volk's names behind a prefix
 extern PFN_vkGetInstanceProcAddr meltpoint_vkGetInstanceProcAddr;
 VkResult meltpoint_volkInitialize();
 void meltpoint_volkInitializeCustom(PFN_vkGetInstanceProcAddr handler);
 void meltpoint_volkLoadInstanceOnly(VkInstance instance);
 void meltpoint_volkLoadDeviceTable(VolkDeviceTable* table, VkDevice device);
+// NOLINTEND(readability-identifier-naming)
 }
 
 namespace meltpoint::gpu {

@@ -188,7 +188,9 @@ double largest_jacobi_eigenvalue(std::uint32_t kernel, double support_radius, do
             continue;
         }
         const glm::dvec3 u = glm::normalize(direction);
-        for (double k = finest; k < PI * glm::length(direction); k += finest) {
+        const int wave_numbers = static_cast<int>(PI * glm::length(direction) / finest);
+        for (int i = 1; i <= wave_numbers; ++i) {
+            const double k = i * finest;
             glm::dvec3 sum(0.0);
             double squares = 0.0;
             for_each_lattice_site(ratio, dimensions, [&](const glm::dvec3& x, double r) {

@@ -210,7 +210,7 @@ TEST(SceneFile, TwoDimensionsMeanNothingByZ)
     EXPECT_EQ(scene.domain.dimensions, 2u);
     const std::string flat = "[domain]\ndimensions = 2\n";
     const auto error_in_plane = [&](const std::string& text) {
-        const std::string found = error_with_block(flat + text);
+        std::string found = error_with_block(flat + text);
         EXPECT_NE(found.find("where domain.dimensions is 2"), std::string::npos) << found;
         return found;
     };

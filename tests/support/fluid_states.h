@@ -250,9 +250,11 @@ inline ParticleSet flow_across_borders(std::uint64_t seed)
         set.position[i][axis] = at_max ? 0.99999f : 0.00001f;
         set.velocity[i][axis] = at_max ? 2.0f : -2.0f;
     }
-    for (int i = 0; i < 14 * 14; ++i) {
-        const glm::vec3 place(static_cast<float>(i % 14) + 0.5f, 7.0f, static_cast<float>(i / 14) + 0.5f);
-        add_boundary_particle(set, place / 14.0f);
+    for (int z = 0; z < 14; ++z) {
+        for (int x = 0; x < 14; ++x) {
+            const glm::vec3 place(static_cast<float>(x) + 0.5f, 7.0f, static_cast<float>(z) + 0.5f);
+            add_boundary_particle(set, place / 14.0f);
+        }
     }
     return set;
 }
