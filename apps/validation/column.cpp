@@ -106,21 +106,24 @@ void StillColumn::run(double seconds)
     set_ = simulation.download();
 }
 
-ColumnProfile StillColumn::profile(double seconds, std::uint32_t samples)
+ColumnProfile StillColumn::profile(double seconds, std::uint32_t samples, std::uint32_t looks)
 {
     std::vector<double> y(set_.size());
     std::vector<double> pressure(set_.size());
     ColumnProfile result;
-    SceneRun run(host_, scene_, set_, samples);
-    for (std::uint32_t i = 0; i < samples; ++i) {
-        run.advance_by(seconds / samples);
+    const std::uint32_t all_looks = samples * looks;
+    SceneRun run(host_, scene_, set_, all_looks);
+    for (std::uint32_t look = 1; look <= all_looks; ++look) {
+        run.advance_by(seconds / all_looks);
         const ParticleSet& set = run.particles();
         for (std::size_t k = 0; k < set.size(); ++k) {
-            y[k] += static_cast<double>(set.position[k].y) / samples;
-            pressure[k] += static_cast<double>(set.pressure[k]) / samples;
+            y[k] += static_cast<double>(set.position[k].y) / all_looks;
+            pressure[k] += static_cast<double>(set.pressure[k]) / all_looks;
         }
-        const FrameStatistics& statistics = run.statistics();
-        result.energy.push_back(statistics.kinetic_energy / (statistics.mass * gravity * height));
+        if (look % looks == 0) {
+            const FrameStatistics& statistics = run.statistics();
+            result.energy.push_back(statistics.kinetic_energy / (statistics.mass * gravity * height));
+        }
     }
     set_ = run.particles();
     const double surface = height * (1.0 - 0.5 * compression(settings_));
@@ -167,11 +170,12 @@ Outcome run_column(const Host& host)
 ColumnProfile measure_still_water(const Host& host, const ColumnSettings& settings)
 {
     StillColumn column(host, settings);
-    if (settings.solver == Solver::Wcsph) { // solved pressure has no sound
-        column.settle();
-        column.run(2.5);
-        column.settle();
+    if (settings.solver != Solver::Wcsph) { // solved pressure has no sound
+        return column.profile(10.0, 100, 25);
     }
+    column.settle();
+    column.run(2.5);
+    column.settle();
     return column.profile(10.0, 100);
 }
 

@@ -45,8 +45,10 @@ public:
     void settle();
     /// Lets it be for so long.
     void run(double seconds);
-    /// Averages over so many seconds, of so many samples.
-    [[nodiscard]] ColumnProfile profile(double seconds, std::uint32_t samples);
+    /// Averages over so many seconds, of so many samples, with so many looks at depth and pressure a sample. What is
+    /// solved for goes up and down by some percent from step to step, in a cycle of a few steps: only all steps
+    /// together bear the weight. Looks that are a longest step apart or less see all of them.
+    [[nodiscard]] ColumnProfile profile(double seconds, std::uint32_t samples, std::uint32_t looks = 1);
 
 private:
     Host host_;
