@@ -291,6 +291,59 @@ void warn_of_capped_speeds(const Scene& scene, std::uint32_t capped, std::uint64
     }
 }
 
+/// What the solves of a frame's steps were like: warned of once where they are not what the scene asks for, and noted.
+class Watch {
+public:
+    explicit Watch(const Scene& scene) : scene_(scene) {}
+
+    /// At a frame's end, so many steps after the last one's.
+    void look(sim::Simulation& simulation, std::uint32_t frame, std::uint64_t steps)
+    {
+        solves_ = simulation.take_solve_statistics();
+        viscosity_ = simulation.take_viscosity_statistics();
+        if (solves_) {
+            warn_of_unmet_errors(scene_, *solves_, frame, warned_of_solves_);
+            warn_of_capped_speeds(scene_, (*solves_)[shared::SOLVE_DENSITY].capped,
+                                  simulation.particles().count * steps, frame, warned_of_cap_);
+        }
+        if (viscosity_) {
+            warn_of_unmet_viscosity(scene_, *viscosity_, frame, warned_of_viscosity_);
+        }
+    }
+
+    /// Nothing where there is no simulation.
+    void note(std::optional<sim::Simulation>& simulation, FrameStatistics& statistics)
+    {
+        if (simulation) {
+            statistics.neighbors_mean = mean_neighbors(*simulation, statistics.frame, warned_of_coincident_);
+        }
+        if (solves_) {
+            statistics.iterations_density = (*solves_)[shared::SOLVE_DENSITY].mean_iterations;
+            if (scene_.solver == Solver::Dfsph) {
+                statistics.iterations_divergence = (*solves_)[shared::SOLVE_DIVERGENCE].mean_iterations;
+            }
+        }
+        if (viscosity_) {
+            statistics.iterations_viscosity = viscosity_->mean_iterations;
+        }
+    }
+
+private:
+    const Scene& scene_;
+    std::optional<std::array<sim::Simulation::SolveStatistics, shared::SOLVES>> solves_;
+    std::optional<sim::Simulation::SolveStatistics> viscosity_;
+    bool warned_of_coincident_ = false;
+    bool warned_of_solves_ = false;
+    bool warned_of_viscosity_ = false;
+    bool warned_of_cap_ = false;
+};
+
+/// s; 0 without steps.
+double mean_dt(double seconds, std::uint64_t steps)
+{
+    return steps > 0 ? seconds / static_cast<double>(steps) : 0.0;
+}
+
 } // namespace
 
 RunSummary run_scene(const gpu::Context& context, const Scene& scene, const RunOptions& options)
@@ -333,10 +386,7 @@ RunSummary run_scene(const gpu::Context& context, const Scene& scene, const RunO
         remove_old_frames(options);
     }
     RunSummary summary{.particles = particle_count};
-    bool warned_of_coincident = false;
-    bool warned_of_solves = false;
-    bool warned_of_viscosity = false;
-    bool warned_of_cap = false;
+    Watch watch(scene);
     double previous_frame_time = 0.0;
     Progress progress("frames", scene.time.frames, options.quiet);
     for (std::uint32_t frame = 0; frame < scene.time.frames; ++frame) {
@@ -351,16 +401,7 @@ RunSummary run_scene(const gpu::Context& context, const Scene& scene, const RunO
         if (simulation) {
             simulation->advance_by(frame_time - previous_frame_time);
             summary.steps = simulation->step();
-        }
-        const auto solves = simulation ? simulation->take_solve_statistics() : std::nullopt;
-        if (solves) {
-            warn_of_unmet_errors(scene, *solves, frame, warned_of_solves);
-            warn_of_capped_speeds(scene, (*solves)[shared::SOLVE_DENSITY].capped,
-                                  particle_count * (summary.steps - steps_before), frame, warned_of_cap);
-        }
-        const auto viscosity = simulation ? simulation->take_viscosity_statistics() : std::nullopt;
-        if (viscosity) {
-            warn_of_unmet_viscosity(scene, *viscosity, frame, warned_of_viscosity);
+            watch.look(*simulation, frame, summary.steps - steps_before);
         }
         summary.time = simulation ? simulation->time() : frame_time;
         previous_frame_time = frame_time;
@@ -383,27 +424,14 @@ RunSummary run_scene(const gpu::Context& context, const Scene& scene, const RunO
                 statistics.frame = frame;
                 statistics.time = summary.time;
                 statistics.steps = summary.steps;
-                statistics.dt = summary.steps > steps_before
-                                    ? (summary.time - time_before) / static_cast<double>(summary.steps - steps_before)
-                                    : 0.0;
-                if (simulation) {
-                    statistics.neighbors_mean = mean_neighbors(*simulation, frame, warned_of_coincident);
-                }
-                if (solves) {
-                    statistics.iterations_density = (*solves)[shared::SOLVE_DENSITY].mean_iterations;
-                    if (scene.solver == Solver::Dfsph) {
-                        statistics.iterations_divergence = (*solves)[shared::SOLVE_DIVERGENCE].mean_iterations;
-                    }
-                }
-                if (viscosity) {
-                    statistics.iterations_viscosity = viscosity->mean_iterations;
-                }
+                statistics.dt = mean_dt(summary.time - time_before, summary.steps - steps_before);
+                watch.note(simulation, statistics);
                 statistics.simulate_ms = simulate_ms;
                 statistics.draw_ms = draw_ms;
                 statistics_file->add(statistics_row(statistics));
             }
         }
-        if (forces_file) {
+        if (forces_file && simulation) {
             const auto forces = collider_forces(simulation->take_boundary_forces(), started.colliders);
             forces_file->add(forces_rows(frame, summary.time, forces));
         }
