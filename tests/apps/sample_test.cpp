@@ -10,6 +10,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include <fmt/format.h>
 #include <fmt/ranges.h>
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
@@ -374,7 +375,7 @@ TEST_F(SampleCli, AnUnwritablePlaceIsToldBeforeTheWork)
         cases.emplace_back("locked/below/x.ply", "Permission denied");
     }
     for (const auto& [out, reason] : cases) {
-        expect_one_sentence(sample({"no_such.obj", "-o", out}), 1, "cannot write " + out + ": " + reason);
+        expect_one_sentence(sample({"no_such.obj", "-o", out}), 1, fmt::format("cannot write {}: {}", out, reason));
     }
     expect_one_sentence(sample({"no_such.obj", "-o", "new/below/x.ply"}), 2, "no_such.obj");
     expect_one_sentence(sample({"no_such.obj", "-o", path("new/below/x.ply").string()}), 2, "no_such.obj");
