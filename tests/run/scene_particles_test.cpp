@@ -242,8 +242,10 @@ TEST(SceneParticles, ScansThatCannotBeFilledAreRefused)
 {
     const test::ScratchFolder folder;
     PointCloud flat;
-    for (int i = 0; i < 400; ++i) {
-        flat.positions.emplace_back(0.1f * static_cast<float>(i % 20), 0.0f, 0.1f * static_cast<float>(i / 20));
+    for (int z = 0; z < 20; ++z) {
+        for (int x = 0; x < 20; ++x) {
+            flat.positions.emplace_back(0.1f * static_cast<float>(x), 0.0f, 0.1f * static_cast<float>(z));
+        }
     }
     PointCloud two = flat;
     two.positions.resize(2);
