@@ -3,6 +3,7 @@
 #include "reference/time_step.h"
 
 #include <algorithm>
+#include <cmath>
 
 namespace meltpoint::reference {
 
@@ -28,10 +29,11 @@ StepLength next_step(const shared::SphParams& params, double fastest, double lim
         limit = std::min(limit, static_cast<double>(params.cfl_length) / speed);
     }
     limit = std::max(limit, static_cast<double>(params.shortest_dt));
-    if (remaining <= limit) {
+    const double steps = remaining / (limit * (1.0 + static_cast<double>(shared::LANDING_TOLERANCE)));
+    if (steps <= 1.0) {
         return {limit, remaining};
     }
-    return {limit, remaining < 2.0 * limit ? 0.5 * remaining : limit};
+    return {limit, steps < 1e6 ? remaining / (std::floor(steps) + 1.0) : limit};
 }
 
 } // namespace meltpoint::reference

@@ -8,6 +8,9 @@ SHARED_BEGIN
 // No step is longer than this times what the one before might have been: fluid that is suddenly slow gets time to settle.
 SHARED_CONSTANT float TIME_STEP_GROWTH = 1.1f;
 
+// A step may be longer than its limit by this, relative: rounding of what remains must not cost one more step.
+SHARED_CONSTANT float LANDING_TOLERANCE = 1e-5f;
+
 SHARED_CONSTANT uint PARTICLES_PER_SPEED = 16u; // that one invocation looks at for the fastest
 
 // The state of the time steps, one on the device.
@@ -18,10 +21,15 @@ struct TimeStep {
     float elapsed;   // s, since the host last set `remaining`
 };
 
-// The step with which a limit leads to the end of what remains: never a tiny one before it.
+// The longest of the equal steps, none longer than a limit, that lead to the end of what remains. Were only the last ones cut,
+// pressure solved for there would not be that of the others.
 SHARED_FUNCTION float landing_step(float limit, float remaining)
 {
-    return remaining <= limit ? remaining : (remaining < 2.0f * limit ? 0.5f * remaining : limit);
+    float steps = remaining / (limit * (1.0f + LANDING_TOLERANCE));
+    if (steps <= 1.0f) {
+        return remaining;
+    }
+    return steps < 1e6f ? remaining / float(uint(steps) + 1u) : limit;
 }
 
 SHARED_END
