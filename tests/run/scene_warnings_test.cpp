@@ -1,6 +1,8 @@
 // What a scene says that does not do what it seems to.
 #include "run/scene_warnings.h"
 
+#include <tuple>
+
 #include <gtest/gtest.h>
 
 #include "run/scene_particles.h"
@@ -26,6 +28,25 @@ std::string warning_of(const Scene& scene)
     const std::vector<std::string> warnings = scene_warnings(scene, make_particles(scene, 1'000'000));
     EXPECT_LE(warnings.size(), 1u);
     return warnings.empty() ? "" : warnings.front();
+}
+
+TEST(SceneWarnings, TensionAtASupportItIsNotMeasuredFor)
+{
+    Scene scene = full_square();
+    scene.fluids[0].surface_tension = 0.07f;
+    for (const auto& [dimensions, ratio, warns] : {std::tuple{2u, 3.0f, true},
+                                                   {2u, 2.5f, false},
+                                                   {2u, 2.0f, true},
+                                                   {3u, 3.0f, true},
+                                                   {3u, 2.5f, false},
+                                                   {3u, 2.0f, false}}) {
+        scene.domain.dimensions = dimensions;
+        scene.particles.support_ratio = ratio;
+        EXPECT_EQ(warning_of(scene).starts_with("particles.support_ratio is"), warns) << dimensions << ", " << ratio;
+    }
+    scene.particles.support_ratio = 3.0f;
+    scene.fluids[0].surface_tension = 0.0f;
+    EXPECT_EQ(warning_of(scene), "");
 }
 
 TEST(SceneWarnings, ALidWithoutWallViscosity)
