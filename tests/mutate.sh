@@ -692,6 +692,26 @@ mutation "drift: no contact with walls" \
     'vec3 v = with_contact(position[i].xyz, velocity[i].xyz, params.dt)' \
     'vec3 v = velocity[i].xyz' \
     conformance_tests 'Steps.WallsHoldALoneParticle'
+mutation "solve: all of an excess is taken away, however short the step" \
+    shaders/shared/solve.h \
+    'return dt < correction_time ? dt / correction_time : 1.0f' \
+    'return 1.0f' \
+    physics_short_tests 'Incompressible.ShortStepsDoNotBlowUpUnevenFluid'
+mutation "solve: a lack of density is taken away in shares, too" \
+    shaders/sim/dfsph_residual.comp \
+    'compression > 1.0 ? share * (compression - 1.0) : compression - 1.0' \
+    'share * (compression - 1.0)' \
+    conformance_tests '*PassConformance.SolvedPressure/Splash*'
+mutation "drift: pressure without the divergence solve" \
+    shaders/sim/drift.comp \
+    'warm_start[i][SOLVE_DENSITY] / params.dt + warm_start[i][SOLVE_DIVERGENCE]' \
+    'warm_start[i][SOLVE_DENSITY] / params.dt' \
+    conformance_tests '*PassConformance.SolvedPressure/Splash*'
+mutation "time step: only the last one is cut" \
+    shaders/sim/time_step.comp \
+    'landing_step(limit, step.remaining)' \
+    'min(limit, step.remaining)' \
+    conformance_tests 'TimeControl.StepsAreTheTwins'
 mutation "time step: the fastest of the last step only" \
     shaders/sim/fastest.comp \
     'max(dot(v, v), dot(later, later))' \

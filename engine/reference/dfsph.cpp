@@ -40,6 +40,11 @@ double step_length(const Settings& settings)
     return static_cast<double>(settings.params.dt);
 }
 
+double density_share(const Settings& settings)
+{
+    return static_cast<double>(shared::density_share(settings.params.dt, settings.params.correction_time));
+}
+
 } // namespace
 
 double jacobi_diagonal(const Settings& settings, const State& state, const Neighbors& neighbors, std::size_t i)
@@ -81,7 +86,8 @@ ScalarSum excess(const Settings& settings, const State& state, const Neighbors& 
     }
     const double compression = state.density[i] / rest_density(settings, state, i);
     if (solve == shared::SOLVE_DENSITY) {
-        return {compression - 1.0 + sum.value, compression + 1.0 + sum.magnitude};
+        const double dense = compression > 1.0 ? density_share(settings) * (compression - 1.0) : compression - 1.0;
+        return {dense + sum.value, compression + 1.0 + sum.magnitude};
     }
     return compression > static_cast<double>(shared::DIVERGENCE_FILL) ? sum : ScalarSum{};
 }
@@ -104,12 +110,21 @@ double with_momentum(double impulse, double before, double momentum)
     return std::max(impulse + momentum * (impulse - before), 0.0);
 }
 
+double solved_pressure(const Settings& settings, const State& state, const WarmStarts& warm_starts, std::size_t i)
+{
+    const double dt = step_length(settings);
+    const double impulse = warm_starts[shared::SOLVE_DENSITY][i] / dt + warm_starts[shared::SOLVE_DIVERGENCE][i];
+    const double volume = state.mass[i] / state.density[i];
+    return is_boundary(state, i) ? 0.0 : impulse / (dt * volume * volume);
+}
+
 SolveResult solve(const Settings& settings, State& state, const Neighbors& neighbors, std::uint32_t solve,
                   std::vector<double>& warm_start)
 {
     const std::size_t count = state.size();
     const double target = static_cast<double>(solve == shared::SOLVE_DENSITY ? settings.params.density_error
                                                                              : settings.params.divergence_error);
+    const double share = solve == shared::SOLVE_DENSITY ? density_share(settings) : 1.0;
     std::vector<double> diagonal(count, 0.0);
     std::vector<double> impulse(count, 0.0); // of the Jacobi steps
     std::vector<double> ahead(count, 0.0);   // with momentum
@@ -138,7 +153,7 @@ SolveResult solve(const Settings& settings, State& state, const Neighbors& neigh
             impulse[i] = next_impulse(settings, state, diagonal[i], e, acted[i], i);
             const double momentum = result.iterations == 0 ? 0.0 : static_cast<double>(shared::solve_momentum(unrisen));
             ahead[i] = with_momentum(impulse[i], before, momentum);
-            errors[i] = std::max(e, 0.0);
+            errors[i] = std::max(e, 0.0) / share;
         });
         double sum = 0.0;
         for (const double error : errors) {
@@ -185,10 +200,8 @@ DfsphStep dfsph_step(const Settings& settings, State& state, WarmStarts& warm_st
     }
     results[shared::SOLVE_DENSITY] =
         solve(settings, state, neighbors, shared::SOLVE_DENSITY, warm_starts[shared::SOLVE_DENSITY]);
-    const double dt2 = step_length(settings) * step_length(settings);
     for (std::size_t i = 0; i < state.size(); ++i) {
-        const double volume = is_boundary(state, i) ? 1.0 : state.mass[i] / state.density[i];
-        state.pressure[i] = warm_starts[shared::SOLVE_DENSITY][i] / (dt2 * volume * volume);
+        state.pressure[i] = solved_pressure(settings, state, warm_starts, i);
     }
     shift_particles(settings, state, neighbors);
     hold_off_walls(settings, state);

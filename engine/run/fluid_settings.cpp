@@ -289,6 +289,10 @@ FluidSettings fluid_settings(const Scene& any_scene, const ParticleSet& particle
     params.dt = scene.time.dt.value_or(static_cast<float>(std::min(bounds.smallest(), 1.0 / frame_rate)));
     const bool solved = scene.solver != Solver::Wcsph;
     params.cfl_length = solved ? cfl_length(scene) : 0.4f * 0.5f * params.support_radius;
+    // Fluid too dense may part as fast as particles move anyway: so long steps take all of it away, as in Bender &
+    // Koschier 2017.
+    params.correction_time =
+        scene.solver == Solver::Dfsph ? static_cast<float>(static_cast<double>(params.cfl_length) / speed) : 0.0f;
     params.cfl_speed = solved ? 0.0f : params.speed_of_sound;
     params.longest_dt = static_cast<float>(std::min(
         {bounds.viscosity, bounds.tension, 1.0 / frame_rate, solved ? longest_step(scene) : 1.0 / frame_rate}));

@@ -18,6 +18,13 @@ SHARED_CONSTANT float DIVERGENCE_FILL = 0.9f;
 // iterations yet, but still water trembles: 5e-5 of m g h in motion instead of 1e-7.
 SHARED_CONSTANT float WARM_START = 0.5f;
 
+// The part of a density above rest density that one step's density solve takes away. All of it in a short step would be a kick:
+// an excess of 1 % of a spacing's density, taken away in 1e-7 s, throws fluid apart at tens of m/s. So it has correction_time.
+SHARED_FUNCTION float density_share(float dt, float correction_time)
+{
+    return dt < correction_time ? dt / correction_time : 1.0f;
+}
+
 // How far an iterate goes on beyond the step that led to it, in parts of that step (Nesterov 1983), n iterations after the error
 // has last risen, where it starts anew (O'Donoghue & Candes 2015).
 SHARED_FUNCTION float solve_momentum(uint n) { return float(n) / float(n + 3u); }
@@ -29,7 +36,7 @@ struct ResidualPush {
 };
 
 // One solve's state. `error` is the mean over fluid particles of max(rho*/rho0 - 1, 0), rho* the density that the
-// velocities lead to within the step; of the divergence solve, the mean of max(dt drho/dt / rho0, 0).
+// velocities lead to within the step, or within correction_time where that is longer; of the divergence solve, the mean of max(dt drho/dt / rho0, 0).
 struct Solve {
     uvec3 groups;           // workgroups of the next iteration's passes: (0, 0, 0) once the solve has ended
     uint iterations;        // of the last solve

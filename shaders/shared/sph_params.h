@@ -98,6 +98,7 @@ struct SphParams {
     float divergence_error; // a time step
     uint max_iterations;
     float solve_relaxation; // of a Jacobi iteration: neighbors correct the same error, and together would overshoot
+    float correction_time;  // s, in which the density solve takes away what the density has already; 0: in each step
 
     // Where viscosity is solved for (shared/viscosity_solve.h): the error at which a solve ends, and its most iterations.
     float viscosity_error;

@@ -5,7 +5,7 @@
 // that is from what is wanted, and the pressures of the next iterate (Jacobi, relaxed; Bender & Koschier 2015), with momentum
 // (Nesterov 1983), which takes the iterations from the square of the fluid's depth in particles to the depth. Fluid resists
 // being compressed, never being torn: pressures stay positive. The first iterate is the warm start, where there is anything to
-// resist. The workgroup that is done last adds up the errors and decides whether there is a next iteration. Twin:
+// resist. In steps shorter than params.correction_time only a share of what is too dense already is taken away. The workgroup that is done last adds up the errors and decides whether there is a next iteration. Twin:
 // engine/reference/dfsph.cpp.
 #define CELL_START_BINDING 1
 #define NEIGHBOR_BITS_BINDING 11
@@ -87,6 +87,7 @@ void end_iteration(float error)
 
 void main()
 {
+    float share = density_share(params.dt, params.correction_time);
     vec2 error = vec2(0.0);
     if (invocation_index() * TILE < params.particle_count) {
         vec4 own[TILE];
@@ -103,7 +104,8 @@ void main()
             float rest_volume = load_candidate(velocity, i).w / params.rest_density[particle_material(attributes[i])];
             float compression = rest_volume / its_interaction.y;                           // rho / rho0
             float change = params.dt * rest_volume * params.gradient_scale * rate[k];      // of it, in this step
-            float excess = push.solve == SOLVE_DENSITY ? compression - 1.0 + change : (compression > DIVERGENCE_FILL ? change : 0.0);
+            float dense = compression > 1.0 ? share * (compression - 1.0) : compression - 1.0;
+            float excess = push.solve == SOLVE_DENSITY ? dense + change : (compression > DIVERGENCE_FILL ? change : 0.0);
 
             // The impulses that the velocities have in them: those of a solve that ends here are what has acted.
             float unit = push.solve == SOLVE_DENSITY ? params.dt : 1.0;
@@ -122,6 +124,7 @@ void main()
             error += vec2(max(excess, 0.0), 1.0);
         }
     }
+    error.x /= push.solve == SOLVE_DENSITY ? share : 1.0; // as if all were to be taken away at this rate
     if (dispatch_sum(error)) {
         end_iteration(error.y > 0.0 ? error.x / error.y : 0.0);
     }

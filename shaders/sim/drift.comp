@@ -1,8 +1,8 @@
 #version 460
 #extension GL_EXT_control_flow_attributes : require
 #extension GL_GOOGLE_include_directive : require
-// The end of a step whose velocities a solve has made: x += v dt, with the walls' contact, the pressure that the solve found,
-// and the watch. Twin: engine/reference/integrate.cpp.
+// The end of a step whose velocities solves have made: x += v dt, with the walls' contact, the pressure that both solves found,
+// and the watch. Twins: engine/reference/integrate.cpp, and solved_pressure in engine/reference/dfsph.cpp.
 #include "include/invocation.glsl"
 #include "shared/particle_state.h"
 #include "shared/solve.h"
@@ -38,6 +38,7 @@ void main()
     velocity[i].xyz = v;
     position[i].xyz = x;
     float volume = interaction[i].y;
-    pressure[i] = warm_start[i][SOLVE_DENSITY] / (params.gradient_scale * params.dt * params.dt * volume * volume);
+    float impulse = warm_start[i][SOLVE_DENSITY] / params.dt + warm_start[i][SOLVE_DIVERGENCE]; // of both solves
+    pressure[i] = impulse / (params.gradient_scale * params.dt * volume * volume);
     watch(i, x, v, step_index);
 }
