@@ -36,7 +36,8 @@ struct ResidualPush {
 };
 
 // One solve's state. `error` is the mean over fluid particles of max(rho*/rho0 - 1, 0), rho* the density that the
-// velocities lead to within the step, or within correction_time where that is longer; of the divergence solve, the mean of max(dt drho/dt / rho0, 0).
+// velocities lead to within the step, or within correction_time where that is longer; of the divergence solve, the mean of
+// max(dt drho/dt / rho0, 0).
 struct Solve {
     uvec3 groups;           // workgroups of the next iteration's passes: (0, 0, 0) once the solve has ended
     uint iterations;        // of the last solve
