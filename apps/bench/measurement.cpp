@@ -231,7 +231,7 @@ std::vector<Result> measure(const gpu::Context& context, const ParticleSet& init
     std::vector<Result> results;
     for (std::size_t i = 0; i < simulations.size(); ++i) {
         Result result;
-        result.particles = params.particle_count;
+        result.particles = params.pool_count;
         result.tile = simulations[i]->tile();
         result.neighbors = simulations[i]->neighbor_statistics().mean;
         result.steps = plan.steps;

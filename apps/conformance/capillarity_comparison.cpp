@@ -28,6 +28,7 @@ std::vector<PassError> compare_capillarity(Device& device, const sim::FluidOptio
     };
     const reference::State before = reference::from_particle_set(download_unordered(device.context, device.particles));
     device.run([&] {
+        capillarity.record_start(device.commands);
         capillarity.record_normals(device.commands, device.kernels, device.params_buffer, device.particles,
                                    device.grid);
     });

@@ -11,6 +11,7 @@ namespace meltpoint::conformance {
 struct Device {
     const gpu::Context& context;
     shared::SphParams params;
+    bool still; ///< boundary particles are
     sim::FluidKernels kernels;
     ParticleBuffers particles;
     sim::NeighborGrid grid;
@@ -21,13 +22,14 @@ struct Device {
     gpu::Commands commands;
 
     Device(const gpu::Context& device_context, const ParticleSet& set, const sim::SimulationSettings& settings)
-        : context(device_context), params(sim::complete_params(settings.params, set.size())),
-          kernels(context, settings.options), particles(make_particle_buffers(context, params.particle_count)),
-          grid(context, params.particle_count, params.grid_size),
+        : context(device_context), params(sim::complete_params(settings.params, settings.options, set)),
+          still(settings.options.still), kernels(context, settings.options), particles(make_particle_buffers(context, params.pool_count)),
+          grid(context, params.pool_count, params.grid_size, settings.options.still),
           params_buffer(gpu::make_buffer<shared::SphParams>(context, 1, "params")),
           status(gpu::make_buffer<shared::Status>(context, 1, "status")), time(context, params),
-          vorticity(context, settings.options, params.particle_count), commands(context)
+          vorticity(context, settings.options, params.pool_count), commands(context)
     {
+        particles.moving = params.moving_count;
         upload(context, set, particles);
         gpu::upload<shared::SphParams>(context, params_buffer, {&params, 1});
         run([&] { commands.fill(status, shared::NO_STEP); });

@@ -90,7 +90,7 @@ private:
     {
         std::vector<glm::dvec3> velocity;
         for (const glm::vec4& v :
-             gpu::download<glm::vec4>(device_.context, dfsph_.corrected_velocity(), twin_.size())) {
+             gpu::download<glm::vec4>(device_.context, device_.grid.sorted_velocity, twin_.size())) {
             velocity.emplace_back(v.x, v.y, v.z);
         }
         return velocity;

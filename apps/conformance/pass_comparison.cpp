@@ -76,36 +76,37 @@ std::uint32_t cell_of(const shared::SphParams& params, const glm::vec3& x)
     return (c.z * params.grid_size.y + c.y) * params.grid_size.x + c.x;
 }
 
-/// Every particle once, in the slots of its cell, ids ascending within a cell, all attributes moved along.
-PassError compare_sort(Device& device)
+/// Every particle once, in the slots of its cell, those of still particles behind all others, ids ascending within a
+/// cell, all attributes moved along. before: by id.
+PassError sort_error(Device& device, const ParticleSet& before, const std::string& name)
 {
-    const ParticleSet before = download(device.context, device.particles); // by id
-    device.run([&] {
-        sim::record_sort(device.commands, device.kernels, device.params_buffer, device.particles, device.grid);
-    });
     const ParticleSet after = download_unordered(device.context, device.particles);
-    const auto start = gpu::download<std::uint32_t>(device.context, device.grid.cell_start, device.grid.cell_count + 1);
+    const std::uint32_t cells = device.grid.cell_count;
+    const std::uint32_t keys = device.still ? 2 * cells : cells;
+    const auto start = gpu::download<std::uint32_t>(device.context, device.grid.cell_start, keys + 1);
 
-    PassError result{"sort", 0.0, 0.0};
+    PassError result{name, 0.0, 0.0};
     std::vector<bool> seen(after.size(), false);
-    for (std::uint32_t cell = 0; cell < device.grid.cell_count; ++cell) {
-        for (std::uint32_t slot = start[cell]; slot < start[cell + 1]; ++slot) {
+    for (std::uint32_t key = 0; key < keys; ++key) {
+        const std::uint32_t cell = key % cells;
+        for (std::uint32_t slot = start[key]; slot < start[key + 1]; ++slot) {
             const std::uint32_t id = slot < after.size() ? after.id[slot] : ~0u;
-            if (id >= before.size() || seen[id]) {
-                return {"sort", 1.0, 0.0};
+            if (id >= before.size() || seen[id] ||
+                (device.still && shared::is_boundary(after.attributes[slot]) != (key >= cells))) {
+                return {name, 1.0, 0.0};
             }
             seen[id] = true;
             const bool moved_whole =
                 after.position[slot] == before.position[id] && after.mass[slot] == before.mass[id] &&
                 after.velocity[slot] == before.velocity[id] && after.attributes[slot] == before.attributes[id];
-            const bool ascending = slot == start[cell] || after.id[slot - 1] < id;
+            const bool ascending = slot == start[key] || after.id[slot - 1] < id;
             bool right_cell = cell_of(device.params, after.position[slot]) == cell;
             if (!right_cell && near_cell_border(device.params, after.position[slot])) {
                 ++result.excluded;
                 right_cell = true;
             }
             if (!moved_whole || !ascending || !right_cell) {
-                return {"sort", 1.0, 0.0};
+                return {name, 1.0, 0.0};
             }
         }
     }
@@ -115,10 +116,52 @@ PassError compare_sort(Device& device)
     return result;
 }
 
+PassError compare_sort(Device& device)
+{
+    const ParticleSet before = download(device.context, device.particles);
+    device.run([&] {
+        sim::record_sort(device.commands, device.kernels, device.params_buffer, device.particles, device.grid);
+    });
+    return sort_error(device, before, "sort");
+}
+
+PassError compare_partition(Device& device)
+{
+    const ParticleSet before = download(device.context, device.particles);
+    device.run([&] {
+        sim::record_partition(device.commands, device.kernels, device.params_buffer, device.particles, device.grid);
+        sim::record_settle(device.commands, device.kernels, device.params_buffer, device.particles, device.grid);
+    });
+    return sort_error(device, before, "partition");
+}
+
+/// What is read of still particles, exactly: it is copied, or two products.
+PassError compare_settle(Device& device, const reference::Settings& settings, const reference::State& twin)
+{
+    device.run([&] {
+        sim::record_settle(device.commands, device.kernels, device.params_buffer, device.particles, device.grid);
+        device.vorticity.record_start(device.commands);
+    });
+    const std::size_t count = twin.size();
+    const auto interaction = gpu::download<glm::vec4>(device.context, device.particles.interaction, count);
+    const auto spare = gpu::download<glm::vec4>(device.context, device.grid.sorted_position, count);
+    const auto position = gpu::download<glm::vec4>(device.context, device.particles.position, count);
+    RelativeError error;
+    for (std::size_t i = device.particles.moving; i < count; ++i) {
+        const double volume = twin.weight[i] * static_cast<double>(settings.params.lattice_volume);
+        const double friction = static_cast<double>(settings.params.friction[shared::particle_material(twin.attributes[i])]);
+        const double viscous = static_cast<double>(settings.params.viscosity_scale) * friction * volume;
+        error.add(static_cast<double>(interaction[i].y) - volume, volume);
+        error.add(static_cast<double>(interaction[i].z) - viscous, viscous);
+        error.add(static_cast<double>(interaction[i].x) + (spare[i] == position[i] ? 0.0 : 1.0), 1.0);
+    }
+    return {"settle", error.value(), pass_bound};
+}
+
 /// The sets of neighbors, by their size and the sum of their ids.
 PassError compare_neighbors(Device& device, const reference::State& twin)
 {
-    const std::uint32_t count = device.particles.count;
+    const std::uint32_t count = device.particles.moving;
     const gpu::Buffer counts = gpu::make_buffer<shared::NeighborCount>(device.context, count, "neighbor counts");
     device.run([&] {
         sim::record_count_neighbors(device.commands, device.kernels, device.params_buffer, device.particles,
@@ -149,7 +192,7 @@ PassError compare_neighbors(Device& device, const reference::State& twin)
                                : gpu[i].neighbors >= fewest.of(i).size() && gpu[i].neighbors <= most.of(i).size();
         wrong += right ? 0 : 1;
     }
-    result.error = static_cast<double>(wrong) / count;
+    result.error = static_cast<double>(wrong) / std::max(count, 1u);
     return result;
 }
 
@@ -308,12 +351,21 @@ std::vector<PassError> compare_passes(const gpu::Context& context, const Particl
     Device device(context, particles, settings);
     const reference::Settings twin_settings = reference_settings(device.params, settings);
 
-    std::vector<PassError> errors = compare_kick_drift(device, twin_settings);
+    std::vector<PassError> errors;
+    if (device.still) {
+        errors.push_back(compare_partition(device));
+    }
+    for (PassError& error : compare_kick_drift(device, twin_settings)) {
+        errors.push_back(std::move(error));
+    }
     errors.push_back(compare_sort(device));
     reference::State twin = reference::from_particle_set(download_unordered(context, device.particles));
     const reference::Neighbors neighbors = reference::find_neighbors(device.params, twin.position);
     errors.push_back(compare_neighbors(device, twin));
     errors.push_back(compare_boundary_weight(device, twin_settings, twin, neighbors));
+    if (device.still) {
+        errors.push_back(compare_settle(device, twin_settings, twin));
+    }
     for (PassError& error : compare_density(device, twin_settings, twin, neighbors)) {
         errors.push_back(std::move(error));
     }

@@ -26,6 +26,7 @@ public:
     {
         device_.run([&] {
             device_.commands.fill(*pbf_.solves(), 0);
+            pbf_.record_still(device_.commands, device_.fluid());
             sim::record_forces(device_.commands, device_.kernels, device_.params_buffer, device_.particles,
                                device_.grid);
         });

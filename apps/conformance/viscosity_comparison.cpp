@@ -101,7 +101,7 @@ private:
         Random random(12);
         std::vector<glm::vec4> before(twin_.size(), glm::vec4(0.0f));
         Vectors change(twin_.size(), glm::dvec3(0.0));
-        for (std::size_t i = 0; i < twin_.size(); ++i) {
+        for (std::size_t i = 0; i < device_.particles.moving; ++i) {
             const double x = random.uniform();
             const double y = random.uniform();
             const double z = random.uniform();
@@ -109,8 +109,8 @@ private:
             a = glm::vec4((glm::vec3(x, y, z) - 0.5f) * 0.2f / device_.params.dt, 0.0f);
             change[i] = reference::is_boundary(twin_, i) ? glm::dvec3(0.0) : dt * glm::dvec3(a.x, a.y, a.z);
         }
+        device_.run([&] { viscosity_.record_start(device_.commands); });
         gpu::upload<glm::vec4>(device_.context, viscosity_.change(), before);
-        device_.run([&] { device_.commands.fill(viscosity_.state(), 0); });
         return change;
     }
 

@@ -104,7 +104,7 @@ ParticleSet follow_step(conformance::Device& device, std::uint32_t particle, std
     });
     set = now();
     const std::uint32_t slot = slot_of(set, particle);
-    const std::uint32_t count = device.params.particle_count;
+    const std::uint32_t count = device.params.pool_count;
     const std::uint32_t key = gpu::download<std::uint32_t>(device.context, device.grid.key, count)[particle];
     const auto start = gpu::download<std::uint32_t>(device.context, device.grid.cell_start, device.grid.cell_count + 1);
     const std::uint32_t from = gpu::download<std::uint32_t>(device.context, device.grid.order, count)[slot];

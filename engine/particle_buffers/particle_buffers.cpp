@@ -33,6 +33,7 @@ ParticleBuffers make_particle_buffers(const gpu::Context& context, std::uint32_t
 {
     ParticleBuffers particles;
     particles.count = count;
+    particles.moving = count;
     particles.id = gpu::make_buffer<std::uint32_t>(context, count, "id");
     particles.attributes = gpu::make_buffer<std::uint32_t>(context, count, "attributes");
     particles.position = gpu::make_texel_buffer(context, count, "position");

@@ -8,9 +8,11 @@
 namespace meltpoint {
 
 /// The particles on the device: one buffer an attribute, all of the same fixed length. The simulation keeps them sorted
-/// by (cell, id), so a particle's place changes from step to step and its id is what names it.
+/// by (cell, id), the moving ones before the still ones, so a particle's place changes from step to step and its id is
+/// what names it.
 struct ParticleBuffers {
-    std::uint32_t count = 0;
+    std::uint32_t count = 0;  ///< all of them: the pool
+    std::uint32_t moving = 0; ///< the first so many; those behind them lie still
     gpu::Buffer id;           ///< uint
     gpu::Buffer attributes;   ///< uint: state, material and flags (shared/particle_state.h)
     gpu::Buffer position;     ///< vec4: x, y, z in m; w = weight (ParticleSet)

@@ -343,6 +343,7 @@ FluidSettings fluid_settings(const Scene& any_scene, const ParticleSet& particle
     options.kernel = scene.kernel == SphKernel::Wendland ? shared::KERNEL_WENDLAND : shared::KERNEL_PAPER;
     options.mixed_viscosity = differ_in_viscosity(scene);
     options.tension = params.surface_tension > 0.0f;
+    options.still = std::ranges::any_of(particles.attributes, shared::is_boundary);
     options.colliders = options.capillarity && !scene.colliders.empty();
     options.xsph = params.xsph > 0.0f;
     options.confinement = params.vorticity_confinement > 0.0f;

@@ -23,6 +23,13 @@ Capillarity::Capillarity(const gpu::Context& context, const FluidOptions& option
 {
 }
 
+void Capillarity::record_start(gpu::Commands& commands) const
+{
+    commands.fill(gradient_, 0);
+    commands.fill(normal_, 0);
+    commands.fill(smoothed_, 0);
+}
+
 void Capillarity::record(gpu::Commands& commands, const FluidKernels& kernels, const gpu::Buffer& params,
                          const ParticleBuffers& particles, const NeighborGrid& grid)
 {
@@ -37,7 +44,7 @@ void Capillarity::record(gpu::Commands& commands, const FluidKernels& kernels, c
 void Capillarity::record_normals(gpu::Commands& commands, const FluidKernels& kernels, const gpu::Buffer& params,
                                  const ParticleBuffers& particles, const NeighborGrid& grid)
 {
-    commands.dispatch(surface_normal_, kernels.tiles(particles.count), gpu::NoPush{},
+    commands.dispatch(surface_normal_, kernels.tiles(particles.moving), gpu::NoPush{},
                       {read(params), read(grid.cell_start), read(particles.position), read(particles.position),
                        read(particles.velocity), read(particles.velocity), read(particles.attributes), write(gradient_),
                        write(normal_), read(grid.neighbor_bits)});
@@ -46,7 +53,7 @@ void Capillarity::record_normals(gpu::Commands& commands, const FluidKernels& ke
 void Capillarity::record_smoothing(gpu::Commands& commands, const FluidKernels& kernels, const gpu::Buffer& params,
                                    const ParticleBuffers& particles, const NeighborGrid& grid)
 {
-    commands.dispatch(smooth_normal_, kernels.tiles(particles.count), gpu::NoPush{},
+    commands.dispatch(smooth_normal_, kernels.tiles(particles.moving), gpu::NoPush{},
                       {read(params), read(grid.cell_start), read(particles.position), read(particles.position),
                        read(normal_), read(normal_), read(particles.attributes), write(smoothed_),
                        read(grid.neighbor_bits)});
@@ -56,7 +63,7 @@ void Capillarity::record_smoothing(gpu::Commands& commands, const FluidKernels& 
 void Capillarity::record_forces(gpu::Commands& commands, const FluidKernels& kernels, const gpu::Buffer& params,
                                 const ParticleBuffers& particles, const NeighborGrid& grid)
 {
-    commands.dispatch(force_, kernels.tiles(particles.count), gpu::NoPush{},
+    commands.dispatch(force_, kernels.tiles(particles.moving), gpu::NoPush{},
                       {read(params), read(grid.cell_start), read(particles.position), read(particles.position),
                        read(particles.velocity), read(particles.velocity), read(particles.interaction),
                        read(particles.interaction), read(normal_), read(normal_), read(gradient_),

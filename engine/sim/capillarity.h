@@ -16,6 +16,8 @@ public:
     /// Throws Device when its buffers do not fit.
     Capillarity(const gpu::Context& context, const FluidOptions& options, std::uint32_t particle_count);
 
+    /// Before the first step: still particles have no normals.
+    void record_start(gpu::Commands& commands) const;
     /// Adds tension to the accelerations of sorted particles with densities: the three below, one after the other.
     void record(gpu::Commands& commands, const FluidKernels& kernels, const gpu::Buffer& params,
                 const ParticleBuffers& particles, const NeighborGrid& grid);

@@ -19,11 +19,10 @@ using gpu::read_write;
 using gpu::write;
 
 Dfsph::Dfsph(const gpu::Context& context, const FluidOptions& options, const shared::SphParams& params)
-    : max_iterations_(std::max(params.max_iterations, 1u)), particles_(params.particle_count),
+    : max_iterations_(std::max(params.max_iterations, 1u)), particles_(params.pool_count),
       correct_(context, "dfsph_correct", sim_dfsph_correct_comp, fluid_constants(context.info(), options)),
       residual_(context, "dfsph_residual", sim_dfsph_residual_comp, fluid_constants(context.info(), options)),
       drift_(context, "drift", sim_drift_comp), reorder_(context, "reorder_warm_start", sim_reorder_warm_start_comp),
-      corrected_velocity_(gpu::make_texel_buffer(context, particles_, "velocity")),
       warm_start_(gpu::make_buffer<glm::vec2>(context, particles_, "warm start")),
       sorted_warm_start_(gpu::make_buffer<glm::vec2>(context, particles_, "warm start")),
       jacobi_step_(gpu::make_buffer<float>(context, particles_, "Jacobi step")),
@@ -36,6 +35,7 @@ Dfsph::Dfsph(const gpu::Context& context, const FluidOptions& options, const sha
 void Dfsph::record_start(gpu::Commands& commands, const Fluid& fluid)
 {
     commands.fill(warm_start_, 0);
+    commands.fill(sorted_warm_start_, 0); // of the still particles, too, which no sort moves
     commands.fill(solves_, 0);
     commands.fill(fluid.particles.pressure, 0);
     record_initial_state(commands, fluid);
@@ -69,7 +69,7 @@ void Dfsph::record_drift(gpu::Commands& commands, const Fluid& fluid, std::uint3
 {
     const ParticleBuffers& particles = fluid.particles;
     const gpu::Scope scope(commands, "drift");
-    commands.dispatch(drift_, particles.count, step,
+    commands.dispatch(drift_, particles.moving, step,
                       {read(fluid.params), read(particles.id), read(particles.interaction), read(warm_start_),
                        read_write(particles.attributes), read_write(particles.position), read_write(particles.velocity),
                        write(particles.pressure), read_write(fluid.status)});
@@ -79,7 +79,7 @@ void Dfsph::record_sort(gpu::Commands& commands, const Fluid& fluid)
 {
     sim::record_sort(commands, fluid.kernels, fluid.params, fluid.particles, fluid.grid);
     const gpu::Scope scope(commands, "reorder warm start");
-    commands.dispatch(reorder_, particles_, gpu::NoPush{},
+    commands.dispatch(reorder_, fluid.particles.moving, gpu::NoPush{},
                       {read(fluid.params), read(fluid.grid.order), read(warm_start_), write(sorted_warm_start_)});
     std::swap(warm_start_, sorted_warm_start_);
 }
@@ -90,14 +90,14 @@ void Dfsph::record_correct(gpu::Commands& commands, const Fluid& fluid, std::uin
     commands.dispatch_indirect(correct_, solves_, arguments_of(solve), gpu::NoPush{},
                                {read(fluid.params), read(fluid.grid.cell_start), read(particles.position),
                                 read(particles.position), read(particles.interaction), read(particles.interaction),
-                                read(particles.attributes), read(particles.velocity), write(corrected_velocity_),
+                                read(particles.attributes), read(particles.velocity), write(fluid.grid.sorted_velocity),
                                 read(fluid.grid.neighbor_bits), read(particles.velocity)});
 }
 
 void Dfsph::record_residual(gpu::Commands& commands, const Fluid& fluid, shared::ResidualPush push)
 {
     const ParticleBuffers& particles = fluid.particles;
-    const gpu::Buffer& velocity = push.iteration == 0 ? particles.velocity : corrected_velocity_;
+    const gpu::Buffer& velocity = push.iteration == 0 ? particles.velocity : fluid.grid.sorted_velocity;
     const std::initializer_list<gpu::Binding> bindings{read(fluid.params),
                                                        read(fluid.grid.cell_start),
                                                        read(particles.position),
@@ -113,7 +113,7 @@ void Dfsph::record_residual(gpu::Commands& commands, const Fluid& fluid, shared:
                                                        read_write(jacobi_step_),
                                                        read(particles.interaction)};
     if (push.iteration == 0) {
-        commands.dispatch(residual_, fluid.kernels.tiles(particles.count), push, bindings);
+        commands.dispatch(residual_, fluid.kernels.tiles(particles.moving), push, bindings);
     } else {
         commands.dispatch_indirect(residual_, solves_, arguments_of(push.solve), push, bindings);
     }
@@ -127,12 +127,12 @@ void Dfsph::record_solve(gpu::Commands& commands, const Fluid& fluid, std::uint3
         record_correct(commands, fluid, solve);
         record_residual(commands, fluid, {.solve = solve, .iteration = iteration});
     }
-    std::swap(fluid.particles.velocity, corrected_velocity_);
+    std::swap(fluid.particles.velocity, fluid.grid.sorted_velocity);
 }
 
 std::uint64_t Dfsph::device_bytes() const
 {
-    return corrected_velocity_.size() + warm_start_.size() + sorted_warm_start_.size() + jacobi_step_.size() +
+    return warm_start_.size() + sorted_warm_start_.size() + jacobi_step_.size() +
            errors_.size() + solves_.size();
 }
 

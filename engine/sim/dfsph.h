@@ -22,11 +22,11 @@ public:
 
     /// Sorts particles and warm starts.
     void record_sort(gpu::Commands& commands, const Fluid& fluid);
-    /// corrected_velocity() from the velocities and the pressures of the present iterate. Nothing once the solve has
+    /// grid.sorted_velocity from the velocities and the pressures of the present iterate. Nothing once the solve has
     /// ended.
     void record_correct(gpu::Commands& commands, const Fluid& fluid, std::uint32_t solve);
     /// What the velocities lead to, the next iterate and whether the solve has ended. Iteration 0 looks at the
-    /// particles' own velocities and makes the warm start the first iterate, later ones at corrected_velocity().
+    /// particles' own velocities and makes the warm start the first iterate, later ones at grid.sorted_velocity.
     void record_residual(gpu::Commands& commands, const Fluid& fluid, shared::ResidualPush push);
     /// A whole solve (shared::SOLVE_*), after which particles.velocity is what it has found.
     void record_solve(gpu::Commands& commands, const Fluid& fluid, std::uint32_t solve);
@@ -34,7 +34,6 @@ public:
     /// x += v dt, held off the walls; pressure; faults of step `step`.
     void record_drift(gpu::Commands& commands, const Fluid& fluid, std::uint32_t step);
 
-    [[nodiscard]] const gpu::Buffer& corrected_velocity() const { return corrected_velocity_; }
     /// By shared::SOLVE_*, of the last solves: the impulses that have acted, and dt times these, over gradient_scale.
     [[nodiscard]] const gpu::Buffer& warm_start() const { return warm_start_; }
     /// The last iterate without momentum, over gradient_scale.
@@ -47,7 +46,6 @@ private:
     gpu::Kernel residual_;
     gpu::Kernel drift_;
     gpu::Kernel reorder_;
-    gpu::Buffer corrected_velocity_; ///< vec4 a particle, swapped with the velocities after a solve
     gpu::Buffer warm_start_;         ///< vec2 a particle: one float a solve
     gpu::Buffer sorted_warm_start_;  ///< where reorder writes
     gpu::Buffer jacobi_step_;        ///< float a particle: the last iterate without momentum

@@ -12,7 +12,9 @@
 #include "spirv/sim/forces.comp.h"
 #include "spirv/sim/kick.comp.h"
 #include "spirv/sim/kick_drift.comp.h"
+#include "spirv/sim/partition_key.comp.h"
 #include "spirv/sim/reorder.comp.h"
+#include "spirv/sim/settle.comp.h"
 
 namespace meltpoint::sim {
 
@@ -30,7 +32,7 @@ std::uint32_t checked_tile(const gpu::DeviceInfo& device, std::uint32_t tile)
 
 } // namespace
 
-std::array<gpu::SpecConstant, 9> fluid_constants(const gpu::DeviceInfo& device, const FluidOptions& options)
+std::array<gpu::SpecConstant, 10> fluid_constants(const gpu::DeviceInfo& device, const FluidOptions& options)
 {
     // constant_id in shaders/. Tiles are for devices that fetch texels fast.
     const std::uint32_t tile = checked_tile(device, options.tile);
@@ -39,6 +41,7 @@ std::array<gpu::SpecConstant, 9> fluid_constants(const gpu::DeviceInfo& device, 
              {2, options.tension ? 1u : 0u},
              {3, tile > 1 ? 1u : 0u},
              {4, options.solver != shared::SOLVER_WCSPH ? 1u : 0u},
+             {5, options.still ? 1u : 0u},
              {6, options.implicit_viscosity ? 1u : 0u},
              {8, options.mixed_viscosity ? 1u : 0u},
              {10, options.dimensions},
@@ -63,7 +66,9 @@ FluidKernels::FluidKernels(const gpu::Context& context, const FluidOptions& opti
       kick_drift(context, "kick_drift", sim_kick_drift_comp, fluid_constants(context.info(), options)),
       kick(context, "kick", sim_kick_comp, fluid_constants(context.info(), options)),
       cell_key(context, "cell_key", sim_cell_key_comp, fluid_constants(context.info(), options)),
+      partition_key(context, "partition_key", sim_partition_key_comp),
       reorder(context, "reorder", sim_reorder_comp, fluid_constants(context.info(), options)),
+      settle(context, "settle", sim_settle_comp),
       boundary_weight(context, "boundary_weight", sim_boundary_weight_comp, fluid_constants(context.info(), options)),
       density(context, "density", sim_density_comp, fluid_constants(context.info(), options)),
       forces(context, "forces", sim_forces_comp, fluid_constants(context.info(), options)),

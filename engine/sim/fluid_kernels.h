@@ -15,6 +15,7 @@ struct FluidOptions {
     bool tension = false;     ///< of the paper, a look
     bool capillarity = false; ///< tension in SI units (sim/capillarity)
     bool colliders = false;   ///< there are boundary particles that tension must know of
+    bool still = false;       ///< boundary particles stay where they are, out of the way of each step's passes
     bool xsph = false;
     bool confinement = false;
     bool shifting = false;
@@ -25,7 +26,7 @@ struct FluidOptions {
 };
 
 /// Values of the specialization constants that shaders/ agree on. Throws Input when options.tile is out of range.
-[[nodiscard]] std::array<gpu::SpecConstant, 9> fluid_constants(const gpu::DeviceInfo& device,
+[[nodiscard]] std::array<gpu::SpecConstant, 10> fluid_constants(const gpu::DeviceInfo& device,
                                                                const FluidOptions& options);
 
 /// 4 on software devices, where loading a candidate costs more than using it; 1 on GPUs.
@@ -44,7 +45,9 @@ struct FluidKernels {
     gpu::Kernel kick_drift;
     gpu::Kernel kick;
     gpu::Kernel cell_key;
+    gpu::Kernel partition_key;
     gpu::Kernel reorder;
+    gpu::Kernel settle;
     gpu::Kernel boundary_weight;
     gpu::Kernel density;
     gpu::Kernel forces;

@@ -25,7 +25,7 @@ constexpr VkDeviceSize arguments = offsetof(shared::ViscositySolve, solve) + off
 
 ImplicitViscosity::ImplicitViscosity(const gpu::Context& context, const FluidOptions& options,
                                      const shared::SphParams& params)
-    : max_iterations_(params.viscosity_iterations), particles_(params.particle_count),
+    : max_iterations_(params.viscosity_iterations), particles_(params.pool_count),
       start_(context, "viscosity_start", sim_viscosity_start_comp),
       initial_residual_(context, "viscosity_residual", sim_viscosity_residual_comp,
                         fluid_constants(context.info(), options)),
@@ -48,6 +48,7 @@ ImplicitViscosity::ImplicitViscosity(const gpu::Context& context, const FluidOpt
 void ImplicitViscosity::record_start(gpu::Commands& commands)
 {
     commands.fill(change_, 0);
+    commands.fill(direction_, 0); // of the still particles
     commands.fill(state_, 0);
 }
 
@@ -66,11 +67,11 @@ void ImplicitViscosity::record_solve(gpu::Commands& commands, const Fluid& fluid
 void ImplicitViscosity::record_residual(gpu::Commands& commands, const Fluid& fluid)
 {
     const ParticleBuffers& particles = fluid.particles;
-    commands.dispatch(start_, particles_, gpu::NoPush{},
+    commands.dispatch(start_, particles.moving, gpu::NoPush{},
                       {read(fluid.params), read(fluid.grid.order), read(particles.attributes), read(particles.velocity),
                        read(change_), write(product_), write(direction_)});
     std::swap(change_, product_);
-    commands.dispatch(initial_residual_, fluid.kernels.tiles(particles_), gpu::NoPush{},
+    commands.dispatch(initial_residual_, fluid.kernels.tiles(particles.moving), gpu::NoPush{},
                       {read(fluid.params), read(fluid.grid.cell_start), read(particles.position),
                        read(particles.position), read(particles.interaction), read(particles.interaction),
                        read(particles.attributes), read(direction_), read(direction_), read(change_), write(residual_),
@@ -103,7 +104,7 @@ void ImplicitViscosity::record_update(gpu::Commands& commands, const Fluid& flui
 
 void ImplicitViscosity::record_end(gpu::Commands& commands, const Fluid& fluid)
 {
-    commands.dispatch(end_, particles_, gpu::NoPush{},
+    commands.dispatch(end_, fluid.particles.moving, gpu::NoPush{},
                       {read(fluid.params), read_write(change_), read_write(fluid.particles.velocity)});
 }
 

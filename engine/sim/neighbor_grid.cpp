@@ -39,12 +39,12 @@ glm::uvec3 grid_size(const glm::vec3& domain_min, const glm::vec3& domain_max, f
     return glm::max(glm::uvec3(glm::ceil((domain_max - domain_min) / cell)), glm::uvec3(1));
 }
 
-NeighborGrid::NeighborGrid(const gpu::Context& context, std::uint32_t particle_count, const glm::uvec3& size)
+NeighborGrid::NeighborGrid(const gpu::Context& context, std::uint32_t particle_count, const glm::uvec3& size, bool still)
     : cell_count(checked_cell_count(size)), sort(context),
       key(gpu::make_buffer<std::uint32_t>(context, particle_count, "cell key")),
       order(gpu::make_buffer<std::uint32_t>(context, particle_count, "sorted order")),
-      cell_start(gpu::make_buffer<std::uint32_t>(context, cell_count + 1, "cell start")),
-      scratch(sort.make_scratch(particle_count, cell_count)),
+      cell_start(gpu::make_buffer<std::uint32_t>(context, (still ? 2 : 1) * cell_count + 1, "cell start")),
+      scratch(sort.make_scratch(particle_count, (still ? 2 : 1) * cell_count)),
       sorted_id(gpu::make_buffer<std::uint32_t>(context, particle_count, "id")),
       sorted_attributes(gpu::make_buffer<std::uint32_t>(context, particle_count, "attributes")),
       sorted_position(gpu::make_texel_buffer(context, particle_count, "position")),
@@ -54,6 +54,66 @@ NeighborGrid::NeighborGrid(const gpu::Context& context, std::uint32_t particle_c
 {
 }
 
+namespace {
+
+/// Particles in the order of the last sort: the first `count`. Swaps their buffers with the grid's.
+void record_reorder(gpu::Commands& commands, const FluidKernels& kernels, ParticleBuffers& particles,
+                    NeighborGrid& grid, std::uint32_t count)
+{
+    using gpu::read;
+    using gpu::write;
+    const gpu::Scope scope(commands, "reorder");
+    commands.dispatch(kernels.reorder, count, count,
+                      {read(grid.order), read(particles.id), read(particles.attributes), read(particles.position),
+                       read(particles.position), read(particles.velocity), read(particles.velocity),
+                       write(grid.sorted_id), write(grid.sorted_attributes), write(grid.sorted_position),
+                       write(grid.sorted_velocity)});
+    std::swap(particles.id, grid.sorted_id);
+    std::swap(particles.attributes, grid.sorted_attributes);
+    std::swap(particles.position, grid.sorted_position);
+    std::swap(particles.velocity, grid.sorted_velocity);
+}
+
+} // namespace
+
+void record_partition(gpu::Commands& commands, const FluidKernels& kernels, const gpu::Buffer& params,
+                      ParticleBuffers& particles, NeighborGrid& grid)
+{
+    const std::uint32_t count = particles.count;
+    {
+        const gpu::Scope scope(commands, "partition");
+        commands.dispatch(
+            kernels.partition_key, count, gpu::NoPush{},
+            {read(params), read(particles.position), read(particles.attributes), gpu::write(grid.key)});
+        grid.sort.record(commands, {grid.key, particles.id, count, 2 * grid.cell_count}, {grid.cell_start, grid.order},
+                         grid.scratch);
+    }
+    record_reorder(commands, kernels, particles, grid, count);
+}
+
+void record_settle(gpu::Commands& commands, const FluidKernels& kernels, const gpu::Buffer& params,
+                   const ParticleBuffers& particles, const NeighborGrid& grid)
+{
+    using gpu::read;
+    using gpu::write;
+    if (particles.count == particles.moving) {
+        return;
+    }
+    const gpu::Scope scope(commands, "settle");
+    commands.dispatch(kernels.settle, particles.count - particles.moving, gpu::NoPush{},
+                      {read(params), read(particles.position), read(particles.attributes),
+                       write(particles.acceleration), write(particles.density), write(particles.pressure),
+                       write(particles.interaction)});
+    for (const auto& [from, to] : {std::pair{&particles.id, &grid.sorted_id},
+                                   {&particles.attributes, &grid.sorted_attributes},
+                                   {&particles.position, &grid.sorted_position},
+                                   {&particles.velocity, &grid.sorted_velocity}}) {
+        const VkDeviceSize element = from->size() / particles.count;
+        const VkDeviceSize first = element * particles.moving;
+        commands.copy(*from, *to, from->size() - first, first, first);
+    }
+}
+
 void record_sort(gpu::Commands& commands, const FluidKernels& kernels, const gpu::Buffer& params,
                  ParticleBuffers& particles, NeighborGrid& grid)
 {
@@ -61,24 +121,15 @@ void record_sort(gpu::Commands& commands, const FluidKernels& kernels, const gpu
     using gpu::write;
     {
         const gpu::Scope scope(commands, "cell key");
-        commands.dispatch(kernels.cell_key, particles.count, gpu::NoPush{},
+        commands.dispatch(kernels.cell_key, particles.moving, gpu::NoPush{},
                           {read(params), read(particles.position), read(particles.position), write(grid.key)});
     }
     {
         const gpu::Scope scope(commands, "sort");
-        grid.sort.record(commands, {grid.key, particles.id, particles.count, grid.cell_count},
+        grid.sort.record(commands, {grid.key, particles.id, particles.moving, grid.cell_count},
                          {grid.cell_start, grid.order}, grid.scratch);
     }
-    const gpu::Scope scope(commands, "reorder");
-    commands.dispatch(kernels.reorder, particles.count, gpu::NoPush{},
-                      {read(params), read(grid.order), read(particles.id), read(particles.attributes),
-                       read(particles.position), read(particles.position), read(particles.velocity),
-                       read(particles.velocity), write(grid.sorted_id), write(grid.sorted_attributes),
-                       write(grid.sorted_position), write(grid.sorted_velocity)});
-    std::swap(particles.id, grid.sorted_id);
-    std::swap(particles.attributes, grid.sorted_attributes);
-    std::swap(particles.position, grid.sorted_position);
-    std::swap(particles.velocity, grid.sorted_velocity);
+    record_reorder(commands, kernels, particles, grid, particles.moving);
 }
 
 } // namespace meltpoint::sim

@@ -18,7 +18,7 @@ using gpu::read_write;
 using gpu::write;
 
 Pbf::Pbf(const gpu::Context& context, const FluidOptions& options, const shared::SphParams& params)
-    : max_iterations_(std::max(params.max_iterations, 1u)), particles_(params.particle_count),
+    : max_iterations_(std::max(params.max_iterations, 1u)), particles_(params.pool_count),
       predict_(context, "pbf_predict", sim_pbf_predict_comp),
       move_kernel_(context, "pbf_move", sim_pbf_move_comp, fluid_constants(context.info(), options)),
       residual_(context, "pbf_residual", sim_pbf_residual_comp, fluid_constants(context.info(), options)),
@@ -37,6 +37,13 @@ void Pbf::record_start(gpu::Commands& commands, const Fluid& fluid)
     commands.fill(solves_, 0);
     commands.fill(fluid.particles.pressure, 0);
     record_initial_state(commands, fluid);
+    record_still(commands, fluid);
+}
+
+void Pbf::record_still(gpu::Commands& commands, const Fluid& fluid) const
+{
+    commands.copy(fluid.particles.position, moved_, moved_.size());
+    commands.fill(move_, 0);
 }
 
 void Pbf::record_step(gpu::Commands& commands, const Fluid& fluid, std::uint32_t step)
@@ -55,7 +62,7 @@ void Pbf::record_predict(gpu::Commands& commands, const Fluid& fluid)
 {
     const ParticleBuffers& particles = fluid.particles;
     const gpu::Scope scope(commands, "predict");
-    commands.dispatch(predict_, particles.count, gpu::NoPush{},
+    commands.dispatch(predict_, particles.moving, gpu::NoPush{},
                       {read(fluid.params), read(particles.attributes), read_write(particles.position),
                        read_write(particles.velocity)});
 }
@@ -67,7 +74,7 @@ void Pbf::record_move(gpu::Commands& commands, const Fluid& fluid, std::uint32_t
         read(fluid.params), read(particles.position), read(particles.acceleration), read_write(move_),
         write(moved_),      write(particles.pressure)};
     if (iteration == 0) {
-        commands.dispatch(move_kernel_, fluid.kernels.tiles(particles.count), iteration, bindings);
+        commands.dispatch(move_kernel_, fluid.kernels.tiles(particles.moving), iteration, bindings);
     } else {
         commands.dispatch_indirect(move_kernel_, solves_, arguments_of(shared::SOLVE_DENSITY), iteration, bindings);
     }
@@ -92,7 +99,7 @@ void Pbf::record_residual(gpu::Commands& commands, const Fluid& fluid, std::uint
                                                        read_write(solves_),
                                                        read(fluid.grid.neighbor_bits)};
     if (iteration == 0) {
-        commands.dispatch(residual_, fluid.kernels.tiles(particles.count), push, bindings);
+        commands.dispatch(residual_, fluid.kernels.tiles(particles.moving), push, bindings);
     } else {
         commands.dispatch_indirect(residual_, solves_, arguments_of(shared::SOLVE_DENSITY), push, bindings);
     }
@@ -124,7 +131,7 @@ void Pbf::record_finish(gpu::Commands& commands, const Fluid& fluid, std::uint32
 {
     const ParticleBuffers& particles = fluid.particles;
     const gpu::Scope scope(commands, "finish");
-    commands.dispatch(finish_, particles.count, step,
+    commands.dispatch(finish_, particles.moving, step,
                       {read(fluid.params), read(particles.id), read(particles.interaction), read(move_),
                        read_write(particles.attributes), read_write(particles.position), read_write(particles.velocity),
                        read_write(particles.pressure), read_write(fluid.status), read_write(solves_)});

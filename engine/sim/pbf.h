@@ -24,6 +24,8 @@ public:
 
     // The passes, for those who compare them with their twins.
 
+    /// Before the first step: still particles do not move.
+    void record_still(gpu::Commands& commands, const Fluid& fluid) const;
     /// x += v dt, held off the walls.
     void record_predict(gpu::Commands& commands, const Fluid& fluid);
     /// moved() from the predicted positions and move(), which iteration 0 begins with accelerations. Nothing once the

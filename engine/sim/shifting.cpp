@@ -18,7 +18,7 @@ void Shifting::record(gpu::Commands& commands, const FluidKernels& kernels, cons
                       ParticleBuffers& particles, NeighborGrid& grid) const
 {
     const gpu::Scope scope(commands, "shift");
-    commands.dispatch(shift_, kernels.tiles(particles.count), gpu::NoPush{},
+    commands.dispatch(shift_, kernels.tiles(particles.moving), gpu::NoPush{},
                       {read(params), read(grid.cell_start), read(particles.position), read(particles.position),
                        read(particles.interaction), read(particles.interaction), read(particles.attributes),
                        write(grid.sorted_position), read(grid.neighbor_bits)});

@@ -57,9 +57,21 @@ const ParticleSet& checked(const gpu::Context& context, const ParticleSet& parti
 
 shared::SphParams complete_params(shared::SphParams params, std::size_t particle_count)
 {
-    params.particle_count = static_cast<std::uint32_t>(particle_count);
+    params.pool_count = static_cast<std::uint32_t>(particle_count);
+    params.moving_count = params.pool_count;
     params.grid_size = grid_size(params.domain_min, params.domain_max, params.support_radius);
     return params;
+}
+
+shared::SphParams complete_params(const shared::SphParams& params, const FluidOptions& options,
+                                  const ParticleSet& particles)
+{
+    shared::SphParams complete = complete_params(params, particles.size());
+    if (options.still) {
+        complete.moving_count -=
+            static_cast<std::uint32_t>(std::ranges::count_if(particles.attributes, shared::is_boundary));
+    }
+    return complete;
 }
 
 std::uint64_t Simulation::particle_limit(const gpu::DeviceInfo& device)
@@ -72,15 +84,16 @@ std::uint64_t Simulation::particle_limit(const gpu::DeviceInfo& device)
 }
 
 Simulation::Simulation(const gpu::Context& context, const ParticleSet& particles, const SimulationSettings& settings)
-    : context_(&context), params_(complete_params(settings.params, checked(context, particles).size())),
+    : context_(&context), params_(complete_params(settings.params, settings.options, checked(context, particles))),
       options_(settings.options), kernels_(context, options_), solver_(make_solver(context, settings.options, params_)),
-      particles_(make_particle_buffers(context, params_.particle_count)),
-      grid_(context, params_.particle_count, params_.grid_size),
+      particles_(make_particle_buffers(context, params_.pool_count)),
+      grid_(context, params_.pool_count, params_.grid_size, settings.options.still),
       params_buffer_(gpu::make_buffer<shared::SphParams>(context, 1, "params")),
       status_(gpu::make_buffer<shared::Status>(context, 1, "status")),
       readback_(context, sizeof(Readback), gpu::MemoryUse::Readback, "readback"), time_(context, params_),
-      vorticity_(context, settings.options, params_.particle_count), commands_(std::make_unique<gpu::Commands>(context))
+      vorticity_(context, settings.options, params_.pool_count), commands_(std::make_unique<gpu::Commands>(context))
 {
+    particles_.moving = params_.moving_count;
     upload(context, particles, particles_);
     gpu::upload<shared::SphParams>(context, params_buffer_, {&params_, 1});
     commands_->begin();
@@ -93,7 +106,7 @@ Simulation::Simulation(const gpu::Context& context, const ParticleSet& particles
         shifting_.emplace(context, settings.options);
     }
     if (settings.options.capillarity) {
-        capillarity_.emplace(context, settings.options, params_.particle_count);
+        capillarity_.emplace(context, settings.options, params_.pool_count);
     }
     solver_->record_start(*commands_, fluid());
     commands_->submit();
@@ -102,7 +115,7 @@ Simulation::Simulation(const gpu::Context& context, const ParticleSet& particles
 
 std::uint32_t Simulation::steps_a_submission() const
 {
-    return std::clamp(particle_steps_per_submission / params_.particle_count, 1u, max_steps_per_submission);
+    return std::clamp(particle_steps_per_submission / std::max(params_.moving_count, 1u), 1u, max_steps_per_submission);
 }
 
 Simulation::Readback Simulation::submit_steps(std::uint32_t steps)
@@ -204,8 +217,8 @@ ParticleSet Simulation::download() const
 
 NeighborStatistics Simulation::neighbor_statistics()
 {
-    const std::uint32_t count = params_.particle_count;
-    const gpu::Buffer counts = gpu::make_buffer<shared::NeighborCount>(*context_, count, "neighbor counts");
+    const std::uint32_t count = params_.moving_count;
+    const gpu::Buffer counts = gpu::make_buffer<shared::NeighborCount>(*context_, std::max(count, 1u), "neighbor counts");
     commands_->begin();
     record_count_neighbors(*commands_, kernels_, params_buffer_, particles_, grid_, counts);
     commands_->submit();

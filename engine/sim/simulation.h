@@ -19,12 +19,15 @@ namespace meltpoint::sim {
 
 /// What a Simulation is made with besides its particles.
 struct SimulationSettings {
-    shared::SphParams params{}; ///< particle_count and grid_size are filled in
+    shared::SphParams params{}; ///< moving_count, pool_count and grid_size are filled in
     FluidOptions options;
 };
 
-/// The params with particle count and grid size filled in.
+/// The params with the numbers of particles and the grid size filled in: all of them move.
 [[nodiscard]] shared::SphParams complete_params(shared::SphParams params, std::size_t particle_count);
+/// The same: boundary particles are still where options.still says so.
+[[nodiscard]] shared::SphParams complete_params(const shared::SphParams& params, const FluidOptions& options,
+                                                const ParticleSet& particles);
 
 /// Neighbor statistics of the present state, of all particles but boundary particles.
 struct NeighborStatistics {

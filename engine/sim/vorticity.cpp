@@ -25,6 +25,13 @@ Vorticity::Vorticity(const gpu::Context& context, const FluidOptions& options, s
     }
 }
 
+void Vorticity::record_start(gpu::Commands& commands) const
+{
+    if (curl_) {
+        commands.fill(curl_->vorticity, 0);
+    }
+}
+
 void Vorticity::record_xsph(gpu::Commands& commands, const FluidKernels& kernels, const gpu::Buffer& params,
                             ParticleBuffers& particles, NeighborGrid& grid)
 {
@@ -32,7 +39,7 @@ void Vorticity::record_xsph(gpu::Commands& commands, const FluidKernels& kernels
         return;
     }
     const gpu::Scope scope(commands, "xsph");
-    commands.dispatch(*xsph_, kernels.tiles(particles.count), gpu::NoPush{},
+    commands.dispatch(*xsph_, kernels.tiles(particles.moving), gpu::NoPush{},
                       {read(params), read(grid.cell_start), read(particles.position), read(particles.position),
                        read(particles.velocity), read(particles.velocity), read(particles.interaction),
                        read(particles.interaction), read(particles.attributes), write(grid.sorted_velocity),
@@ -47,12 +54,12 @@ void Vorticity::record_confinement(gpu::Commands& commands, const FluidKernels& 
         return;
     }
     const gpu::Scope scope(commands, "confinement");
-    commands.dispatch(curl_->kernel, kernels.tiles(particles.count), gpu::NoPush{},
+    commands.dispatch(curl_->kernel, kernels.tiles(particles.moving), gpu::NoPush{},
                       {read(params), read(grid.cell_start), read(particles.position), read(particles.position),
                        read(particles.velocity), read(particles.velocity), read(particles.interaction),
                        read(particles.interaction), read(particles.attributes), write(curl_->vorticity),
                        read(grid.neighbor_bits)});
-    commands.dispatch(curl_->confinement, kernels.tiles(particles.count), gpu::NoPush{},
+    commands.dispatch(curl_->confinement, kernels.tiles(particles.moving), gpu::NoPush{},
                       {read(params), read(grid.cell_start), read(particles.position), read(particles.position),
                        read(curl_->vorticity), read(curl_->vorticity), read(particles.attributes),
                        read_write(particles.acceleration), read(grid.neighbor_bits)});

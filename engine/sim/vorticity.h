@@ -16,6 +16,8 @@ class Vorticity {
 public:
     Vorticity(const gpu::Context& context, const FluidOptions& options, std::uint32_t particle_count);
 
+    /// Before the first step: still particles have no vorticity.
+    void record_start(gpu::Commands& commands) const;
     /// XSPH of sorted particles with densities (Schechter & Bridson 2012, after Monaghan 1989). Swaps the particles'
     /// velocities with the grid's spare buffer. Nothing where options.xsph is not set.
     void record_xsph(gpu::Commands& commands, const FluidKernels& kernels, const gpu::Buffer& params,

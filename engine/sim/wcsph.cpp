@@ -14,7 +14,7 @@ void record_kick_drift(gpu::Commands& commands, const FluidKernels& kernels, con
                        const ParticleBuffers& particles, const gpu::Buffer& status, std::uint32_t step)
 {
     const gpu::Scope scope(commands, "kick and drift");
-    commands.dispatch(kernels.kick_drift, particles.count, step,
+    commands.dispatch(kernels.kick_drift, particles.moving, step,
                       {read(params), read(particles.id), read(particles.acceleration), read(particles.acceleration),
                        read_write(particles.attributes), read_write(particles.position), read(particles.position),
                        read_write(particles.velocity), read(particles.velocity), read_write(status)});
@@ -34,7 +34,7 @@ void record_density(gpu::Commands& commands, const FluidKernels& kernels, const 
                     const ParticleBuffers& particles, const NeighborGrid& grid)
 {
     const gpu::Scope scope(commands, "density");
-    commands.dispatch(kernels.density, kernels.tiles(particles.count), gpu::NoPush{},
+    commands.dispatch(kernels.density, kernels.tiles(particles.moving), gpu::NoPush{},
                       {read(params), read(grid.cell_start), read(particles.position), read(particles.position),
                        read(particles.attributes), read(particles.velocity), read(particles.velocity),
                        write(particles.density), write(particles.pressure), write(particles.interaction),
@@ -45,7 +45,7 @@ void record_forces(gpu::Commands& commands, const FluidKernels& kernels, const g
                    const ParticleBuffers& particles, const NeighborGrid& grid)
 {
     const gpu::Scope scope(commands, "forces");
-    commands.dispatch(kernels.forces, kernels.tiles(particles.count), gpu::NoPush{},
+    commands.dispatch(kernels.forces, kernels.tiles(particles.moving), gpu::NoPush{},
                       {read(params), read(grid.cell_start), read(particles.position), read(particles.position),
                        read(particles.velocity), read(particles.velocity), read(particles.interaction),
                        read(particles.interaction), read(particles.attributes), write(particles.acceleration),
@@ -65,7 +65,7 @@ void record_kick(gpu::Commands& commands, const FluidKernels& kernels, const gpu
                  const ParticleBuffers& particles, float part)
 {
     const gpu::Scope scope(commands, "kick");
-    commands.dispatch(kernels.kick, particles.count, part,
+    commands.dispatch(kernels.kick, particles.moving, part,
                       {read(params), read(particles.acceleration), read(particles.acceleration),
                        read_write(particles.velocity), read(particles.velocity)});
 }
@@ -74,15 +74,24 @@ void record_count_neighbors(gpu::Commands& commands, const FluidKernels& kernels
                             const ParticleBuffers& particles, const NeighborGrid& grid, const gpu::Buffer& counts)
 {
     const gpu::Scope scope(commands, "count neighbors");
-    commands.dispatch(kernels.count_neighbors, kernels.tiles(particles.count), gpu::NoPush{},
+    commands.dispatch(kernels.count_neighbors, kernels.tiles(particles.moving), gpu::NoPush{},
                       {read(params), read(grid.cell_start), read(particles.position), read(particles.position),
                        read(particles.id), write(counts)});
 }
 
 void record_initial_state(gpu::Commands& commands, const Fluid& fluid)
 {
-    record_sort(commands, fluid.kernels, fluid.params, fluid.particles, fluid.grid);
+    if (fluid.particles.moving < fluid.particles.count) {
+        record_partition(commands, fluid.kernels, fluid.params, fluid.particles, fluid.grid);
+    } else {
+        record_sort(commands, fluid.kernels, fluid.params, fluid.particles, fluid.grid);
+    }
     record_boundary_weight(commands, fluid.kernels, fluid.params, fluid.particles, fluid.grid);
+    record_settle(commands, fluid.kernels, fluid.params, fluid.particles, fluid.grid);
+    fluid.vorticity.record_start(commands);
+    if (fluid.capillarity != nullptr) {
+        fluid.capillarity->record_start(commands);
+    }
     record_density(commands, fluid.kernels, fluid.params, fluid.particles, fluid.grid);
     record_accelerations(commands, fluid);
 }

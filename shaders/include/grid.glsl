@@ -13,4 +13,11 @@ ivec3 cell_coordinates(vec3 x, vec3 domain_min, float support_radius, uvec3 grid
 
 int cell_index(ivec3 cell, uvec3 grid_size) { return (cell.z * int(grid_size.y) + cell.y) * int(grid_size.x) + cell.x; }
 
+// The cell that a particle is sorted into. One beyond the domain, which the drift has reported, is kept in a cell of the border.
+uint cell_of(vec3 x, vec3 domain_min, float support_radius, uvec3 grid_size)
+{
+    ivec3 cell = cell_coordinates(x, domain_min, support_radius, grid_size);
+    return uint(cell_index(clamp(cell, ivec3(0), ivec3(grid_size) - 1), grid_size));
+}
+
 #endif

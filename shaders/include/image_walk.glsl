@@ -50,12 +50,12 @@ vec3 image_position(vec3 x, uint image, Walls borders)
     return mix(x, mix(reflected, shifted, periodic_axes()), image_axes(image));
 }
 
-// `own`: the positions and weights of its particles.
-Tile load_tile(uint invocation, out vec4 own[TILE])
+// A tile of the particles begin .. end - 1. `own`: the positions and weights of its particles.
+Tile load_tile_of(uint begin, uint end, uint invocation, out vec4 own[TILE])
 {
     Tile tile;
-    tile.first = invocation * TILE;
-    tile.last = min(tile.first + TILE, params.particle_count) - 1u;
+    tile.first = begin + invocation * TILE;
+    tile.last = min(tile.first + TILE, end) - 1u;
     uvec3 near_walls = uvec3(0u); // axes along which at least one has a border within its support
     vec3 x[TILE];
     [[unroll]] for (uint k = 0u; k < TILE; ++k) {
@@ -70,6 +70,9 @@ Tile load_tile(uint invocation, out vec4 own[TILE])
     tile.is_wide = TILE > 1u && is_wide(begin_walk(x));
     return tile;
 }
+
+// One of the moving particles.
+Tile load_tile(uint invocation, out vec4 own[TILE]) { return load_tile_of(0u, params.moving_count, invocation, own); }
 
 uint first_image(inout Tile tile)
 {

@@ -39,7 +39,7 @@ bool next_chunk(inout Tile tile, inout Walk walk, inout Chunk chunk)
     }
     rest = found ? rest : uvec2(0u);
     chunk = Chunk(rest.x, min(rest.x + CHUNK, rest.y), rest.y, tile.next_word);
-    tile.next_word += found ? (params.particle_count + TILE - 1u) / TILE : 0u;
+    tile.next_word += found ? (params.moving_count + TILE - 1u) / TILE : 0u;
     return found;
 }
 

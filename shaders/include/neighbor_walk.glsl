@@ -8,19 +8,22 @@
 #include "include/grid.glsl"
 
 layout(constant_id = 1) const uint TILE = 1;
+layout(constant_id = 5) const bool STILL = false; // there are still particles, with a table of cells of their own
 
 layout(set = 0, binding = CELL_START_BINDING, scalar) readonly buffer CellStart { uint cell_start[]; };
 
 const vec3 NOWHERE = vec3(1e9); // out of everyone's reach
 
 // A walk over the rows of cells around the positions of a tile: those of a position are 9 (y and z offsets -1, 0, 1; x
-// offsets -2 .. 2). Every position meets its neighbors in ascending order, whatever the tile.
+// offsets -2 .. 2), through the moving particles and then through the still ones. Every position meets its neighbors in
+// ascending order, whatever the tile.
 struct Walk {
     ivec2 cells;      // in the linear order, first cell of the row at offset 0 and the one after its last
     ivec2 low;        // y and z offsets of the rows to visit: low .. high
     ivec2 high;
     ivec2 offset;     // of the next row
     ivec3 size;       // of the grid
+    int table;        // where the cell starts of those who are met begin
     uint visited_end; // the rows of a tile that spans cells may overlap: each starts where the one before ended
 };
 
@@ -51,7 +54,7 @@ Walk begin_walk(vec3 x[TILE], vec3 domain_min, float support_radius, uvec3 grid_
     int across = extent.y + extent.z;
     bool in_box = across == 0 || (across == 1 && extent.x <= LONG_CELLS);
     int reach = int(CELLS_PER_SUPPORT_X);
-    Walk walk = Walk(ends + ivec2(-reach, reach + 1), ivec2(-1), ivec2(1), ivec2(0), size, 0u);
+    Walk walk = Walk(ends + ivec2(-reach, reach + 1), ivec2(-1), ivec2(1), ivec2(0), size, 0, 0u);
     if (in_box) { // nothing beyond the ends of its rows, no rows outside of the grid
         int row = cell_index(ivec3(0, low.yz), grid_size);
         walk.cells = row + clamp(ivec2(low.x - reach, high.x + reach + 1), ivec2(0), ivec2(size.x));
@@ -68,13 +71,17 @@ bool next_range(inout Walk walk, out uvec2 range)
 {
     bool found = all(lessThanEqual(walk.offset, walk.high));
     ivec2 cells = walk.cells + (walk.offset.y * walk.size.y + walk.offset.x) * walk.size.x;
-    cells = clamp(cells, ivec2(0), ivec2(walk.size.x * walk.size.y * walk.size.z));
+    int cell_count = walk.size.x * walk.size.y * walk.size.z;
+    cells = walk.table + clamp(cells, ivec2(0), ivec2(cell_count));
     range.x = max(cell_start[cells.x], walk.visited_end);
     range.y = max(cell_start[cells.y], range.x);
     walk.visited_end = range.y;
     bool next_layer = walk.offset.x == walk.high.x;
     walk.offset.x = next_layer ? walk.low.x : walk.offset.x + 1;
     walk.offset.y += next_layer ? 1 : 0;
+    bool next_table = STILL && walk.table == 0 && walk.offset.y > walk.high.y;
+    walk.offset = next_table ? walk.low : walk.offset;
+    walk.table = next_table ? cell_count : walk.table;
     return found;
 }
 

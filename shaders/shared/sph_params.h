@@ -49,6 +49,10 @@ SHARED_CONSTANT float FLAT_VORTICITY = 1e-3f;
 
 // Grid cells are half a support radius long in x and one support radius in y and z. A particle's neighbors lie in the 9 rows
 // (y, z offsets -1, 0, 1) of cells x-2 .. x+2: each row is one contiguous range of the sorted particles.
+//
+// Still particles, boundary particles that stay where they are, lie behind the moving ones, sorted likewise but once. So there
+// are two tables of cell starts, one behind the other: cell c begins at cell_start[c] among the moving particles and at
+// cell_start[cells + c] among the still ones.
 SHARED_CONSTANT uint CELLS_PER_SUPPORT_X = 2u;
 
 // What the forces need of a particle's density and pressure is computed once, with them: `interaction`, a vec4 a particle of
@@ -62,8 +66,9 @@ struct SphParams {
     vec3 domain_max;      // m
     float dt;             // s; where adaptive_dt, of the present step
     vec3 gravity;         // m/s^2
-    uint particle_count;
+    uint moving_count;    // particles of a step's passes: the first of the sorted order
     uvec3 grid_size;      // cells along x, y, z; cell index = (z * grid_size.y + y) * grid_size.x + x
+    uint pool_count;      // all particles: those from moving_count on are still
     uint wall_mask;       // bit 2a: wall at domain_min[a], bit 2a + 1: wall at domain_max[a]
 
     uint periodic_mask;   // bits as those of wall_mask: both borders of each periodic axis

@@ -22,11 +22,11 @@ layout(set = 0, binding = 5, scalar) writeonly buffer Weighted { vec4 weighted[]
 
 void main()
 {
-    if (invocation_index() * TILE >= params.particle_count) {
+    if (invocation_index() * TILE >= params.pool_count) {
         return;
     }
     vec4 own[TILE];
-    Tile tile = only_boundary(load_tile(invocation_index(), own));
+    Tile tile = only_boundary(load_tile_of(0u, params.pool_count, invocation_index(), own));
 
     KernelSize size = kernel_size(params.support_radius);
     float sum[TILE];

@@ -1,6 +1,6 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
-// The grid cell of every particle: the key of the counting sort. Twin: engine/reference/cells.cpp.
+// The grid cell of every moving particle: the key of the counting sort. Twin: engine/reference/cells.cpp.
 #include "include/candidate.glsl"
 #include "include/grid.glsl"
 #include "include/invocation.glsl"
@@ -13,9 +13,7 @@ layout(set = 0, binding = 3, scalar) writeonly buffer Key { uint key[]; };
 void main()
 {
     uint i = invocation_index();
-    if (i < params.particle_count) {
-        ivec3 cell = cell_coordinates(load_candidate(position, i).xyz, params.domain_min, params.support_radius, params.grid_size);
-        // A particle beyond the domain, which the drift has reported, is kept in a cell of the border.
-        key[i] = uint(cell_index(clamp(cell, ivec3(0), ivec3(params.grid_size) - 1), params.grid_size));
+    if (i < params.moving_count) {
+        key[i] = cell_of(load_candidate(position, i).xyz, params.domain_min, params.support_radius, params.grid_size);
     }
 }

@@ -26,7 +26,7 @@ layout(set = 0, binding = 7, scalar) buffer Acceleration { vec4 acceleration[]; 
 
 void main()
 {
-    if (invocation_index() * TILE >= params.particle_count) {
+    if (invocation_index() * TILE >= params.moving_count) {
         return;
     }
     vec4 own[TILE];

@@ -45,7 +45,7 @@ float state_equation(float rho, float rho0)
 
 void main()
 {
-    if (invocation_index() * TILE >= params.particle_count) {
+    if (invocation_index() * TILE >= params.moving_count) {
         return;
     }
     vec4 own[TILE];

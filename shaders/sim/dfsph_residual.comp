@@ -89,7 +89,7 @@ void main()
 {
     float share = density_share(params.dt, params.correction_time);
     vec2 error = vec2(0.0);
-    if (invocation_index() * TILE < params.particle_count) {
+    if (invocation_index() * TILE < params.moving_count) {
         vec4 own[TILE];
         Tile tile = without_boundary(load_tile(invocation_index(), own));
         float rate[TILE];

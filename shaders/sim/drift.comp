@@ -26,7 +26,7 @@ layout(set = 0, binding = 8, scalar) buffer StatusBuffer { Status status; };
 void main()
 {
     uint i = invocation_index();
-    if (i >= params.particle_count) {
+    if (i >= params.moving_count) {
         return;
     }
     if (is_boundary(attributes[i])) {

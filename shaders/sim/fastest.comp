@@ -14,13 +14,13 @@ layout(set = 0, binding = 4, scalar) buffer Step { TimeStep step; };
 
 void main()
 {
-    uint stride = (params.particle_count + PARTICLES_PER_SPEED - 1u) / PARTICLES_PER_SPEED;
+    uint stride = (params.moving_count + PARTICLES_PER_SPEED - 1u) / PARTICLES_PER_SPEED;
     uint first = invocation_index();
     if (first >= stride) {
         return;
     }
     float fastest = 0.0;
-    for (uint i = first; i < params.particle_count; i += stride) {
+    for (uint i = first; i < params.moving_count; i += stride) {
         vec3 v = velocity[i].xyz;
         vec3 later = v + params.dt * acceleration[i].xyz;
         float speed2 = max(dot(v, v), dot(later, later));

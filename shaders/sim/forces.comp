@@ -57,7 +57,7 @@ vec3 tension_acceleration(vec3 n, float laplacian, float rho)
 
 void main()
 {
-    if (invocation_index() * TILE >= params.particle_count) {
+    if (invocation_index() * TILE >= params.moving_count) {
         return;
     }
     vec4 own[TILE];

@@ -16,7 +16,7 @@ layout(set = 0, binding = 4) uniform textureBuffer velocity_texels;
 void main()
 {
     uint i = invocation_index();
-    if (i < params.particle_count) {
+    if (i < params.moving_count) {
         velocity[i].xyz = load_candidate(velocity, i).xyz + part * params.dt * load_candidate(acceleration, i).xyz;
     }
 }

@@ -25,7 +25,7 @@ layout(set = 0, binding = 9, scalar) buffer StatusBuffer { Status status; };
 void main()
 {
     uint i = invocation_index();
-    if (i >= params.particle_count || is_boundary(attributes[i])) {
+    if (i >= params.moving_count || is_boundary(attributes[i])) {
         return;
     }
     vec3 v = load_candidate(velocity, i).xyz + 0.5 * params.dt * load_candidate(acceleration, i).xyz;

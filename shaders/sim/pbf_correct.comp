@@ -28,7 +28,7 @@ layout(set = 0, binding = 11, scalar) buffer Pressure { float pressure[]; }; // 
 
 void main()
 {
-    if (invocation_index() * TILE >= params.particle_count) {
+    if (invocation_index() * TILE >= params.moving_count) {
         return;
     }
     vec4 own[TILE];

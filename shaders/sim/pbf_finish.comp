@@ -26,7 +26,7 @@ layout(set = 0, binding = 9, scalar) buffer Solves { Solve solves[SOLVES]; };
 void main()
 {
     uint i = invocation_index();
-    if (i >= params.particle_count || is_boundary(attributes[i])) {
+    if (i >= params.moving_count || is_boundary(attributes[i])) {
         return;
     }
     vec3 its_move = move[i].xyz;

@@ -22,7 +22,7 @@ layout(set = 0, binding = 5, scalar) writeonly buffer Pressure { float pressure[
 void main()
 {
     uint first = invocation_index() * TILE;
-    uint end = min(first + TILE, params.particle_count);
+    uint end = min(first + TILE, params.moving_count);
     for (uint i = first; i < end; ++i) {
         vec4 its_position = position[i];
         vec3 its_move = move[i].xyz;

@@ -18,7 +18,7 @@ layout(set = 0, binding = 3, scalar) buffer Velocity { vec4 velocity[]; };
 void main()
 {
     uint i = invocation_index();
-    if (i >= params.particle_count || is_boundary(attributes[i])) {
+    if (i >= params.moving_count || is_boundary(attributes[i])) {
         return;
     }
     vec3 v = with_contact(position[i].xyz, velocity[i].xyz, params.dt);

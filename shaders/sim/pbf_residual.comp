@@ -94,7 +94,7 @@ void end_iteration(float error)
 void main()
 {
     vec2 error = vec2(0.0);
-    if (invocation_index() * TILE < params.particle_count) {
+    if (invocation_index() * TILE < params.moving_count) {
         vec4 own[TILE];
         Tile tile = without_boundary(load_tile(invocation_index(), own));
         Sums sums[TILE];

@@ -12,7 +12,7 @@ layout(set = 0, binding = 3, scalar) writeonly buffer SortedWarmStart { vec2 sor
 void main()
 {
     uint slot = invocation_index();
-    if (slot < params.particle_count) {
+    if (slot < params.moving_count) {
         sorted_warm_start[slot] = warm_start[order[slot]];
     }
 }

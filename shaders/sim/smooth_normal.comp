@@ -25,7 +25,7 @@ layout(set = 0, binding = 7, scalar) writeonly buffer Smoothed { vec4 smoothed[]
 
 void main()
 {
-    if (invocation_index() * TILE >= params.particle_count) {
+    if (invocation_index() * TILE >= params.moving_count) {
         return;
     }
     vec4 own[TILE];

@@ -63,7 +63,7 @@ Solid nearest_wall(vec3 x)
 
 void main()
 {
-    if (invocation_index() * TILE >= params.particle_count) {
+    if (invocation_index() * TILE >= params.moving_count) {
         return;
     }
     vec4 own[TILE];

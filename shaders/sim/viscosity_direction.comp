@@ -19,7 +19,7 @@ layout(set = 0, binding = 4, scalar) buffer Direction { vec4 direction[]; };
 void main()
 {
     uint first = invocation_index() * TILE;
-    for (uint i = first; i < min(first + TILE, params.particle_count); ++i) {
+    for (uint i = first; i < min(first + TILE, params.moving_count); ++i) {
         vec3 z = precondition(blocks[i], residual[i].xyz);
         vec3 kept = viscosity.turn > 0.0 ? viscosity.turn * direction[i].xyz : vec3(0.0);
         direction[i] = vec4(z + kept, residual[i].w);

@@ -13,7 +13,7 @@ layout(set = 0, binding = 2, scalar) buffer Velocity { vec4 velocity[]; }; // w:
 void main()
 {
     uint i = invocation_index();
-    if (i < params.particle_count) {
+    if (i < params.moving_count) {
         vec3 u = change[i].xyz;
         velocity[i].xyz += u;
         change[i] = vec4(u / params.dt, 0.0);

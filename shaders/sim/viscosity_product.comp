@@ -32,7 +32,7 @@ layout(set = 0, binding = 11, scalar) coherent buffer State { ViscositySolve vis
 void main()
 {
     float sum = 0.0; // m p . A p
-    if (invocation_index() * TILE < params.particle_count) {
+    if (invocation_index() * TILE < params.moving_count) {
         vec4 own[TILE];
         Tile tile = without_boundary(load_tile(invocation_index(), own));
         ViscousForce total[TILE];

@@ -50,7 +50,7 @@ ViscosityBlock invert(vec3 diagonal, vec3 off_diagonal)
 void main()
 {
     vec4 sum = vec4(0.0); // m r.z, m r^2, m u^2, m v*^2
-    if (invocation_index() * TILE < params.particle_count) {
+    if (invocation_index() * TILE < params.moving_count) {
         vec4 own[TILE];
         Tile tile = without_boundary(load_tile(invocation_index(), own));
         ViscousForce total[TILE];

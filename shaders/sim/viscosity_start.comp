@@ -18,7 +18,7 @@ layout(set = 0, binding = 6, scalar) writeonly buffer Direction { vec4 direction
 void main()
 {
     uint i = invocation_index();
-    if (i >= params.particle_count) {
+    if (i >= params.moving_count) {
         return;
     }
     vec4 v = velocity[i];

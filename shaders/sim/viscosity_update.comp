@@ -29,7 +29,7 @@ void main()
 {
     vec3 sum = vec3(0.0); // m r.z, m r^2, m u^2
     uint first = invocation_index() * TILE;
-    for (uint i = first; i < min(first + TILE, params.particle_count); ++i) {
+    for (uint i = first; i < min(first + TILE, params.moving_count); ++i) {
         vec3 u = change[i].xyz + viscosity.advance * direction[i].xyz;
         vec3 r = residual[i].xyz - viscosity.advance * product[i].xyz;
         float mass = residual[i].w;

@@ -27,7 +27,7 @@ layout(set = 0, binding = 9, scalar) writeonly buffer Vorticity { vec4 vorticity
 
 void main()
 {
-    if (invocation_index() * TILE >= params.particle_count) {
+    if (invocation_index() * TILE >= params.moving_count) {
         return;
     }
     vec4 own[TILE];

@@ -270,6 +270,36 @@ TEST_P(PassConformance, SeveralFluids)
     expect_conformance(settings, particles);
 }
 
+// Boundary particles in a grid of their own.
+TEST_P(PassConformance, StillParticles)
+{
+    const auto [state, kernel] = GetParam();
+    const ParticleSet particles = states()[state].make();
+    sim::SimulationSettings plain = test_settings(kernel);
+    plain.options.still = true;
+    plain.params.friction[1] = 3.0f;
+    sim::SimulationSettings everything = with_tension(plain);
+    everything.options.xsph = everything.options.confinement = true;
+    everything.params.xsph = 0.5f;
+    everything.params.vorticity_confinement = 3.0f;
+    sim::SimulationSettings solved = plain;
+    solved.options.solver = shared::SOLVER_DFSPH;
+    solved.options.implicit_viscosity = true;
+    set_viscosity(solved.params, 300.0f);
+    solved.params.dt = 2e-3f;
+    sim::SimulationSettings positions = plain;
+    positions.options.solver = shared::SOLVER_PBF;
+    positions.params.dt = 4e-3f;
+    for (const auto& [name, settings] : {std::pair{"wcsph", everything}, {"dfsph", solved}, {"pbf", positions}}) {
+        for (const std::uint32_t tile : {1u, 4u}) {
+            SCOPED_TRACE(testing::Message() << name << ", tile " << tile);
+            sim::SimulationSettings its = settings;
+            its.options.tile = tile;
+            expect_conformance(its, particles);
+        }
+    }
+}
+
 TEST_P(PassConformance, EveryTileSize)
 {
     const auto [state, kernel] = GetParam();

@@ -126,6 +126,31 @@ TEST_F(Steps, StepsWithSolvedPositionsAreTheTwins)
     }
 }
 
+// Boundary particles in a grid of their own, with every buffer that a step swaps.
+TEST_F(Steps, StepsBesideStillParticlesAreTheTwins)
+{
+    ParticleSet on_a_plate = lattice_state({10, 4, 10}, glm::vec3(0.2f, 0.36f, 0.2f));
+    add_plate(on_a_plate, 1.0f, 0.3f, 0.75f * test_spacing, 0.3f, 3);
+    for (sim::SimulationSettings settings :
+         {test_settings(shared::KERNEL_WENDLAND), dfsph_settings(shared::KERNEL_WENDLAND),
+          pbf_settings(shared::KERNEL_WENDLAND)}) {
+        SCOPED_TRACE(settings.options.solver);
+        settings.options.still = true;
+        settings.params.friction[1] = 3.0f;
+        expect_all(conformance::compare_steps(context(), on_a_plate, settings, 50));
+        settings.options.xsph = settings.options.confinement = settings.options.shifting = true;
+        settings.params.xsph = 0.2f;
+        settings.params.vorticity_confinement = 1.0f;
+        settings.params.shifting = 1e-3f;
+        settings.options.implicit_viscosity = settings.options.solver != shared::SOLVER_PBF;
+        set_viscosity(settings.params, settings.options.implicit_viscosity ? 500.0f : 1.0f);
+        // A set number of iterations, or rounding alone would decide how many there are.
+        settings.params.density_error = settings.params.divergence_error = settings.params.viscosity_error = 0.0f;
+        settings.params.max_iterations = settings.params.viscosity_iterations = 5;
+        expect_all(conformance::compare_steps(context(), on_a_plate, settings, 3));
+    }
+}
+
 TEST_F(Steps, StepsWithXsphAndConfinementAreTheTwins)
 {
     for (sim::SimulationSettings settings :

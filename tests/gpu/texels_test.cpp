@@ -31,7 +31,7 @@ TEST_F(TexelsTest, ABufferWithoutAFormatIsRefusedWhereAShaderReadsTexels)
     const auto count = static_cast<std::uint32_t>(set.size());
     const shared::SphParams params = sim::complete_params(settings.params, count);
     const sim::FluidKernels kernels(context(), settings.options);
-    const sim::NeighborGrid grid(context(), count, params.grid_size);
+    const sim::NeighborGrid grid(context(), count, params.grid_size, false);
     const gpu::Buffer params_buffer = gpu::make_buffer<shared::SphParams>(context(), 1, "params");
     ParticleBuffers particles = make_particle_buffers(context(), count);
     particles.position = gpu::make_buffer<glm::vec4>(context(), count, "words");
