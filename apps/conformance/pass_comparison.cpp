@@ -19,6 +19,7 @@
 #include "reference/cells.h"
 #include "reference/density.h"
 #include "reference/dfsph.h"
+#include "reference/erosion.h"
 #include "reference/forces.h"
 #include "reference/integrate.h"
 #include "reference/measure.h"
@@ -127,12 +128,26 @@ PassError compare_sort(Device& device)
 
 PassError compare_partition(Device& device)
 {
-    const ParticleSet before = download(device.context, device.particles);
+    ParticleSet before = download(device.context, device.particles);
+    for (std::size_t i = 0; i < before.size(); ++i) { // what a step has left
+        const float value = static_cast<float>(i) + 1.0f;
+        before.acceleration[i] = glm::vec3(value, -value, 0.5f * value);
+        before.density[i] = before.pressure[i] = value;
+    }
+    upload(device.context, before, device.particles);
     device.run([&] {
         sim::record_partition(device.commands, device.kernels, device.params_buffer, device.particles, device.grid);
+    });
+    PassError error = sort_error(device, before, "partition");
+    const ParticleSet after = download(device.context, device.particles);
+    error.error += after.acceleration == before.acceleration && after.density == before.density &&
+                           after.pressure == before.pressure
+                       ? 0.0
+                       : 1.0;
+    device.run([&] {
         sim::record_settle(device.commands, device.kernels, device.params_buffer, device.particles, device.grid);
     });
-    return sort_error(device, before, "partition");
+    return error;
 }
 
 /// What is read of still particles, exactly: it is copied, or two products.
@@ -149,7 +164,8 @@ PassError compare_settle(Device& device, const reference::Settings& settings, co
     RelativeError error;
     for (std::size_t i = device.particles.moving; i < count; ++i) {
         const double volume = twin.weight[i] * static_cast<double>(settings.params.lattice_volume);
-        const double friction = static_cast<double>(settings.params.friction[shared::particle_material(twin.attributes[i])]);
+        const double friction =
+            static_cast<double>(settings.params.friction[shared::particle_material(twin.attributes[i])]);
         const double viscous = static_cast<double>(settings.params.viscosity_scale) * friction * volume;
         error.add(static_cast<double>(interaction[i].y) - volume, volume);
         error.add(static_cast<double>(interaction[i].z) - viscous, viscous);
@@ -427,6 +443,9 @@ std::vector<PassError> compare_steps(const gpu::Context& context, const Particle
 
     simulation.advance(steps);
     for (std::uint32_t i = 0; i < steps; ++i) {
+        if (!settings.release_time.empty() && i % sim::Erosion::interval == 0) {
+            (void)reference::release(twin, settings.release_time, i * static_cast<double>(settings.params.dt));
+        }
         twin_step();
     }
     const reference::State gpu = reference::from_particle_set(simulation.download());

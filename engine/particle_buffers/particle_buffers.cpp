@@ -53,7 +53,11 @@ void upload(const gpu::Context& context, const ParticleSet& set, const ParticleB
     gpu::upload<std::uint32_t>(context, particles.id, set.id);
     gpu::upload<std::uint32_t>(context, particles.attributes, set.attributes);
     gpu::upload<glm::vec4>(context, particles.position, pack(set.position, &set.weight));
-    gpu::upload<glm::vec4>(context, particles.velocity, pack(set.velocity, &set.mass));
+    std::vector<float> responding = set.mass; // negative where no force moves it: passes need no look at the state
+    for (std::size_t i = 0; i < set.size(); ++i) {
+        responding[i] *= shared::is_boundary(set.attributes[i]) ? -1.0f : 1.0f;
+    }
+    gpu::upload<glm::vec4>(context, particles.velocity, pack(set.velocity, &responding));
     gpu::upload<glm::vec4>(context, particles.acceleration, pack(set.acceleration, nullptr));
     gpu::upload<float>(context, particles.density, set.density);
     gpu::upload<float>(context, particles.pressure, set.pressure);
@@ -74,7 +78,7 @@ ParticleSet download_unordered(const gpu::Context& context, const ParticleBuffer
     for (std::size_t i = 0; i < count; ++i) {
         set.position[i] = glm::vec3(position[i]);
         set.weight[i] = position[i].w;
-        set.mass[i] = velocity[i].w;
+        set.mass[i] = std::abs(velocity[i].w);
         set.velocity[i] = glm::vec3(velocity[i]);
         set.acceleration[i] = glm::vec3(acceleration[i]);
     }

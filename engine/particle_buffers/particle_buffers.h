@@ -16,7 +16,7 @@ struct ParticleBuffers {
     gpu::Buffer id;           ///< uint
     gpu::Buffer attributes;   ///< uint: state, material and flags (shared/particle_state.h)
     gpu::Buffer position;     ///< vec4: x, y, z in m; w = weight (ParticleSet)
-    gpu::Buffer velocity;     ///< vec4: m/s; w = mass in kg
+    gpu::Buffer velocity;     ///< vec4: m/s; w = mass in kg, of boundary particles its negative
     gpu::Buffer acceleration; ///< vec4: m/s^2; w unused
     gpu::Buffer density;      ///< float: kg/m^3
     gpu::Buffer pressure;     ///< float: Pa

@@ -10,12 +10,21 @@
 
 namespace meltpoint::reference {
 
+namespace {
+
+bool is_collider(const State& state, std::size_t i)
+{
+    return shared::particle_state(state.attributes[i]) == shared::STATE_COLLIDER;
+}
+
+} // namespace
+
 double boundary_weight(const Settings& settings, const State& state, const Neighbors& neighbors, std::size_t b)
 {
     const double support_radius = static_cast<double>(settings.params.support_radius);
     double sum = density_shape(settings.kernel, 0.0);
     for (const Neighbor& neighbor : neighbors.of(b)) {
-        if (is_boundary(state, neighbor.index)) {
+        if (is_collider(state, neighbor.index)) {
             const glm::dvec3 image =
                 reflect_position(settings.params, neighbor.reflection, state.position[neighbor.index]);
             sum += density_shape(settings.kernel, glm::length(state.position[b] - image) / support_radius);
@@ -28,7 +37,7 @@ double boundary_weight(const Settings& settings, const State& state, const Neigh
 void update_boundary_weights(const Settings& settings, State& state, const Neighbors& neighbors)
 {
     parallel_for(state.size(), [&](std::size_t i) {
-        if (is_boundary(state, i)) {
+        if (is_collider(state, i)) {
             state.weight[i] = boundary_weight(settings, state, neighbors, i);
         }
     });

@@ -37,7 +37,7 @@ struct State {
     std::vector<glm::dvec3> position;      ///< m
     std::vector<glm::dvec3> velocity;      ///< m/s
     std::vector<glm::dvec3> acceleration;  ///< m/s^2
-    std::vector<double> mass;              ///< kg; 0 for boundary particles
+    std::vector<double> mass;              ///< kg; 0 for colliders
     std::vector<double> weight;            ///< in its neighbors' number density
     std::vector<double> density;           ///< kg/m^3
     std::vector<double> pressure;          ///< Pa

@@ -177,8 +177,8 @@ double expected_speed(const Scene& scene, const ParticleSet& particles)
 {
     double fastest = 0.0;
     for (std::size_t i = 0; i < particles.size(); ++i) {
-        if (shared::is_boundary(particles.attributes[i])) {
-            continue;
+        if (shared::particle_state(particles.attributes[i]) == shared::STATE_COLLIDER) {
+            continue; // solids may turn into fluid
         }
         const double start = glm::length(glm::dvec3(particles.velocity[i]));
         const double fall = std::sqrt(2.0 * fall_work(scene, glm::dvec3(particles.position[i])));
@@ -289,10 +289,12 @@ FluidSettings fluid_settings(const Scene& any_scene, const ParticleSet& particle
     params.dt = scene.time.dt.value_or(static_cast<float>(std::min(bounds.smallest(), 1.0 / frame_rate)));
     const bool solved = scene.solver != Solver::Wcsph;
     params.cfl_length = solved ? cfl_length(scene) : 0.4f * 0.5f * params.support_radius;
-    // Fluid too dense may part as fast as particles move anyway: so long steps take all of it away, as in Bender &
-    // Koschier 2017.
-    params.correction_time =
-        scene.solver == Solver::Dfsph ? static_cast<float>(static_cast<double>(params.cfl_length) / speed) : 0.0f;
+    if (scene.solver == Solver::Dfsph) {
+        // Fluid too dense may part as fast as particles move anyway; steps of the usual length take all of it away, as
+        // in Bender & Koschier 2017.
+        const double usual_step = std::min(static_cast<double>(params.cfl_length) / speed, 0.5 * longest_solved_step);
+        params.correction_time = static_cast<float>(usual_step);
+    }
     params.cfl_speed = solved ? 0.0f : params.speed_of_sound;
     params.longest_dt = static_cast<float>(std::min(
         {bounds.viscosity, bounds.tension, 1.0 / frame_rate, solved ? longest_step(scene) : 1.0 / frame_rate}));

@@ -10,7 +10,6 @@
 #include "spirv/sim/dfsph_correct.comp.h"
 #include "spirv/sim/dfsph_residual.comp.h"
 #include "spirv/sim/drift.comp.h"
-#include "spirv/sim/reorder_warm_start.comp.h"
 
 namespace meltpoint::sim {
 
@@ -22,7 +21,7 @@ Dfsph::Dfsph(const gpu::Context& context, const FluidOptions& options, const sha
     : max_iterations_(std::max(params.max_iterations, 1u)), particles_(params.pool_count),
       correct_(context, "dfsph_correct", sim_dfsph_correct_comp, fluid_constants(context.info(), options)),
       residual_(context, "dfsph_residual", sim_dfsph_residual_comp, fluid_constants(context.info(), options)),
-      drift_(context, "drift", sim_drift_comp), reorder_(context, "reorder_warm_start", sim_reorder_warm_start_comp),
+      drift_(context, "drift", sim_drift_comp),
       warm_start_(gpu::make_buffer<glm::vec2>(context, particles_, "warm start")),
       sorted_warm_start_(gpu::make_buffer<glm::vec2>(context, particles_, "warm start")),
       jacobi_step_(gpu::make_buffer<float>(context, particles_, "Jacobi step")),
@@ -78,9 +77,18 @@ void Dfsph::record_drift(gpu::Commands& commands, const Fluid& fluid, std::uint3
 void Dfsph::record_sort(gpu::Commands& commands, const Fluid& fluid)
 {
     sim::record_sort(commands, fluid.kernels, fluid.params, fluid.particles, fluid.grid);
+    record_reorder(commands, fluid, fluid.particles.moving);
+}
+
+void Dfsph::record_carry(gpu::Commands& commands, const Fluid& fluid)
+{
+    record_reorder(commands, fluid, fluid.particles.count);
+}
+
+void Dfsph::record_reorder(gpu::Commands& commands, const Fluid& fluid, std::uint32_t count)
+{
     const gpu::Scope scope(commands, "reorder warm start");
-    commands.dispatch(reorder_, fluid.particles.moving, gpu::NoPush{},
-                      {read(fluid.params), read(fluid.grid.order), read(warm_start_), write(sorted_warm_start_)});
+    record_gather(commands, fluid.kernels, fluid.grid.order, warm_start_, sorted_warm_start_, {count, 2});
     std::swap(warm_start_, sorted_warm_start_);
 }
 
@@ -132,8 +140,7 @@ void Dfsph::record_solve(gpu::Commands& commands, const Fluid& fluid, std::uint3
 
 std::uint64_t Dfsph::device_bytes() const
 {
-    return warm_start_.size() + sorted_warm_start_.size() + jacobi_step_.size() +
-           errors_.size() + solves_.size();
+    return warm_start_.size() + sorted_warm_start_.size() + jacobi_step_.size() + errors_.size() + solves_.size();
 }
 
 } // namespace meltpoint::sim

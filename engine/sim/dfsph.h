@@ -14,6 +14,7 @@ public:
 
     void record_start(gpu::Commands& commands, const Fluid& fluid) override;
     void record_step(gpu::Commands& commands, const Fluid& fluid, std::uint32_t step) override;
+    void record_carry(gpu::Commands& commands, const Fluid& fluid) override;
     [[nodiscard]] std::uint32_t scopes() const override { return 13; }
     [[nodiscard]] std::uint64_t device_bytes() const override;
     [[nodiscard]] const gpu::Buffer* solves() const override { return &solves_; }
@@ -40,17 +41,19 @@ public:
     [[nodiscard]] const gpu::Buffer& jacobi_step() const { return jacobi_step_; }
 
 private:
+    /// Warm starts of the first `count` particles into the order of the last sort.
+    void record_reorder(gpu::Commands& commands, const Fluid& fluid, std::uint32_t count);
+
     std::uint32_t max_iterations_;
     std::uint32_t particles_;
     gpu::Kernel correct_;
     gpu::Kernel residual_;
     gpu::Kernel drift_;
-    gpu::Kernel reorder_;
-    gpu::Buffer warm_start_;         ///< vec2 a particle: one float a solve
-    gpu::Buffer sorted_warm_start_;  ///< where reorder writes
-    gpu::Buffer jacobi_step_;        ///< float a particle: the last iterate without momentum
-    gpu::Buffer errors_;             ///< vec2 a workgroup
-    gpu::Buffer solves_;             ///< shared::Solve[SOLVES]
+    gpu::Buffer warm_start_;        ///< vec2 a particle: one float a solve
+    gpu::Buffer sorted_warm_start_; ///< where reorder writes
+    gpu::Buffer jacobi_step_;       ///< float a particle: the last iterate without momentum
+    gpu::Buffer errors_;            ///< vec2 a workgroup
+    gpu::Buffer solves_;            ///< shared::Solve[SOLVES]
 };
 
 } // namespace meltpoint::sim

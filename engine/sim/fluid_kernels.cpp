@@ -10,6 +10,7 @@
 #include "spirv/sim/count_neighbors.comp.h"
 #include "spirv/sim/density.comp.h"
 #include "spirv/sim/forces.comp.h"
+#include "spirv/sim/gather.comp.h"
 #include "spirv/sim/kick.comp.h"
 #include "spirv/sim/kick_drift.comp.h"
 #include "spirv/sim/partition_key.comp.h"
@@ -68,7 +69,7 @@ FluidKernels::FluidKernels(const gpu::Context& context, const FluidOptions& opti
       cell_key(context, "cell_key", sim_cell_key_comp, fluid_constants(context.info(), options)),
       partition_key(context, "partition_key", sim_partition_key_comp),
       reorder(context, "reorder", sim_reorder_comp, fluid_constants(context.info(), options)),
-      settle(context, "settle", sim_settle_comp),
+      gather(context, "gather", sim_gather_comp), settle(context, "settle", sim_settle_comp),
       boundary_weight(context, "boundary_weight", sim_boundary_weight_comp, fluid_constants(context.info(), options)),
       density(context, "density", sim_density_comp, fluid_constants(context.info(), options)),
       forces(context, "forces", sim_forces_comp, fluid_constants(context.info(), options)),

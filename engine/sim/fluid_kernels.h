@@ -27,7 +27,7 @@ struct FluidOptions {
 
 /// Values of the specialization constants that shaders/ agree on. Throws Input when options.tile is out of range.
 [[nodiscard]] std::array<gpu::SpecConstant, 10> fluid_constants(const gpu::DeviceInfo& device,
-                                                               const FluidOptions& options);
+                                                                const FluidOptions& options);
 
 /// 4 on software devices, where loading a candidate costs more than using it; 1 on GPUs.
 [[nodiscard]] std::uint32_t default_tile(const gpu::DeviceInfo& device);
@@ -47,6 +47,7 @@ struct FluidKernels {
     gpu::Kernel cell_key;
     gpu::Kernel partition_key;
     gpu::Kernel reorder;
+    gpu::Kernel gather;
     gpu::Kernel settle;
     gpu::Kernel boundary_weight;
     gpu::Kernel density;

@@ -52,6 +52,13 @@ void ImplicitViscosity::record_start(gpu::Commands& commands)
     commands.fill(state_, 0);
 }
 
+void ImplicitViscosity::record_carry(gpu::Commands& commands, const Fluid& fluid)
+{
+    record_gather(commands, fluid.kernels, fluid.grid.order, change_, product_, {fluid.particles.count, 4});
+    std::swap(change_, product_);
+    commands.fill(direction_, 0);
+}
+
 void ImplicitViscosity::record_solve(gpu::Commands& commands, const Fluid& fluid)
 {
     const gpu::Scope scope(commands, "solve viscosity");

@@ -21,6 +21,8 @@ public:
     void record_start(gpu::Commands& commands);
     /// What viscosity does to particles.velocity in params.dt. The particles are sorted and have densities, and have
     /// been sorted once since the last solve.
+    /// After record_partition: what a solve starts from follows the particles.
+    void record_carry(gpu::Commands& commands, const Fluid& fluid);
     void record_solve(gpu::Commands& commands, const Fluid& fluid);
 
     // The passes, for those who compare them with their twins.

@@ -39,7 +39,8 @@ glm::uvec3 grid_size(const glm::vec3& domain_min, const glm::vec3& domain_max, f
     return glm::max(glm::uvec3(glm::ceil((domain_max - domain_min) / cell)), glm::uvec3(1));
 }
 
-NeighborGrid::NeighborGrid(const gpu::Context& context, std::uint32_t particle_count, const glm::uvec3& size, bool still)
+NeighborGrid::NeighborGrid(const gpu::Context& context, std::uint32_t particle_count, const glm::uvec3& size,
+                           bool still)
     : cell_count(checked_cell_count(size)), sort(context),
       key(gpu::make_buffer<std::uint32_t>(context, particle_count, "cell key")),
       order(gpu::make_buffer<std::uint32_t>(context, particle_count, "sorted order")),
@@ -49,6 +50,7 @@ NeighborGrid::NeighborGrid(const gpu::Context& context, std::uint32_t particle_c
       sorted_attributes(gpu::make_buffer<std::uint32_t>(context, particle_count, "attributes")),
       sorted_position(gpu::make_texel_buffer(context, particle_count, "position")),
       sorted_velocity(gpu::make_texel_buffer(context, particle_count, "velocity")),
+      spare(gpu::make_buffer<float>(context, particle_count, "spare")),
       neighbor_bits(
           gpu::make_buffer<std::uint32_t>(context, neighbor_bit_words(context, particle_count), "neighbor bits"))
 {
@@ -76,19 +78,31 @@ void record_reorder(gpu::Commands& commands, const FluidKernels& kernels, Partic
 
 } // namespace
 
+void record_gather(gpu::Commands& commands, const FluidKernels& kernels, const gpu::Buffer& order,
+                   const gpu::Buffer& source, const gpu::Buffer& target, shared::GatherPush push)
+{
+    commands.dispatch(kernels.gather, push.count, push, {gpu::read(order), gpu::read(source), gpu::write(target)});
+}
+
 void record_partition(gpu::Commands& commands, const FluidKernels& kernels, const gpu::Buffer& params,
                       ParticleBuffers& particles, NeighborGrid& grid)
 {
     const std::uint32_t count = particles.count;
     {
         const gpu::Scope scope(commands, "partition");
-        commands.dispatch(
-            kernels.partition_key, count, gpu::NoPush{},
-            {read(params), read(particles.position), read(particles.attributes), gpu::write(grid.key)});
+        commands.dispatch(kernels.partition_key, count, gpu::NoPush{},
+                          {read(params), read(particles.position), read(particles.attributes), gpu::write(grid.key)});
         grid.sort.record(commands, {grid.key, particles.id, count, 2 * grid.cell_count}, {grid.cell_start, grid.order},
                          grid.scratch);
     }
     record_reorder(commands, kernels, particles, grid, count);
+    const gpu::Scope scope(commands, "carry");
+    record_gather(commands, kernels, grid.order, particles.acceleration, particles.interaction, {count, 4});
+    std::swap(particles.acceleration, particles.interaction); // that of the next step is yet to come
+    for (gpu::Buffer* values : {&particles.density, &particles.pressure}) {
+        record_gather(commands, kernels, grid.order, *values, grid.spare, {count, 1});
+        std::swap(*values, grid.spare);
+    }
 }
 
 void record_settle(gpu::Commands& commands, const FluidKernels& kernels, const gpu::Buffer& params,

@@ -40,6 +40,11 @@ void Pbf::record_start(gpu::Commands& commands, const Fluid& fluid)
     record_still(commands, fluid);
 }
 
+void Pbf::record_carry(gpu::Commands& commands, const Fluid& fluid)
+{
+    record_still(commands, fluid);
+}
+
 void Pbf::record_still(gpu::Commands& commands, const Fluid& fluid) const
 {
     commands.copy(fluid.particles.position, moved_, moved_.size());

@@ -18,6 +18,7 @@ public:
 
     void record_start(gpu::Commands& commands, const Fluid& fluid) override;
     void record_step(gpu::Commands& commands, const Fluid& fluid, std::uint32_t step) override;
+    void record_carry(gpu::Commands& commands, const Fluid& fluid) override;
     [[nodiscard]] std::uint32_t scopes() const override { return 9; }
     [[nodiscard]] std::uint64_t device_bytes() const override;
     [[nodiscard]] const gpu::Buffer* solves() const override { return &solves_; }

@@ -108,6 +108,13 @@ Simulation::Simulation(const gpu::Context& context, const ParticleSet& particles
     if (settings.options.capillarity) {
         capillarity_.emplace(context, settings.options, params_.pool_count);
     }
+    if (!settings.release_time.empty()) {
+        if (settings.release_time.size() != particles.size() || !options_.still) {
+            throw std::logic_error("Simulation: release times are for each particle, and for still ones");
+        }
+        erosion_.emplace(context, settings.release_time);
+        erosion_commands_ = std::make_unique<gpu::Commands>(context);
+    }
     solver_->record_start(*commands_, fluid());
     commands_->submit();
     commands_->wait();
@@ -116,6 +123,44 @@ Simulation::Simulation(const gpu::Context& context, const ParticleSet& particles
 std::uint32_t Simulation::steps_a_submission() const
 {
     return std::clamp(particle_steps_per_submission / std::max(params_.moving_count, 1u), 1u, max_steps_per_submission);
+}
+
+std::uint32_t Simulation::steps_until_erosion() const
+{
+    return erosion_ ? static_cast<std::uint32_t>(next_erosion_ - step_) : ~0u;
+}
+
+void Simulation::erode(double time)
+{
+    if (!erosion_ || step_ < next_erosion_) {
+        return;
+    }
+    next_erosion_ = step_ + Erosion::interval;
+    gpu::Commands& commands = *erosion_commands_;
+    commands.begin();
+    erosion_->record_front(commands, params_buffer_, particles_, static_cast<float>(time));
+    commands.submit();
+    commands.wait();
+    if (erosion_->freed() == 0) {
+        return;
+    }
+    params_.moving_count += erosion_->freed();
+    particles_.moving = params_.moving_count;
+    commands.begin();
+    commands.fill(params_buffer_, params_.moving_count, sizeof(std::uint32_t),
+                  offsetof(shared::SphParams, moving_count));
+    record_partition(commands, kernels_, params_buffer_, particles_, grid_);
+    record_settle(commands, kernels_, params_buffer_, particles_, grid_);
+    solver_->record_carry(commands, fluid());
+    vorticity_.record_start(commands);
+    if (viscosity_) {
+        viscosity_->record_carry(commands, fluid());
+    }
+    if (capillarity_) {
+        capillarity_->record_start(commands);
+    }
+    commands.submit();
+    commands.wait();
 }
 
 Simulation::Readback Simulation::submit_steps(std::uint32_t steps)
@@ -136,7 +181,8 @@ Simulation::Readback Simulation::submit_steps(std::uint32_t steps)
 void Simulation::advance(std::uint32_t steps)
 {
     while (steps > 0) {
-        const std::uint32_t batch = std::min(steps, steps_a_submission());
+        erode(seconds_);
+        const std::uint32_t batch = std::min({steps, steps_a_submission(), steps_until_erosion()});
         commands_->begin();
         time_.set_remaining(*commands_, std::numeric_limits<float>::infinity());
         const Readback seen = submit_steps(batch);
@@ -159,11 +205,14 @@ void Simulation::advance_by(double seconds)
     shared::TimeStep state = gpu::download<shared::TimeStep>(*context_, time_.state(), 1)[0];
     state.remaining = static_cast<float>(seconds);
     for (bool first = true; state.remaining > 0.0f; first = false) {
+        erode(wanted_seconds_ - static_cast<double>(state.remaining));
         commands_->begin();
         if (first) {
             time_.set_remaining(*commands_, state.remaining);
         }
-        state = submit_steps(TimeControl::least_steps(state, params_.longest_dt, steps_a_submission())).time;
+        state = submit_steps(TimeControl::least_steps(state, params_.longest_dt,
+                                                      std::min(steps_a_submission(), steps_until_erosion())))
+                    .time;
     }
     seconds_ = wanted_seconds_;
 }
@@ -183,6 +232,7 @@ std::uint64_t Simulation::device_bytes() const
     std::uint64_t sum =
         solver_->device_bytes() + vorticity_.device_bytes() + (viscosity_ ? viscosity_->device_bytes() : 0);
     sum += capillarity_ ? capillarity_->device_bytes() : 0;
+    sum += erosion_ ? erosion_->device_bytes() : 0;
     sum += boundary_forces_ != nullptr ? boundary_forces_->reactions().size() : 0;
     for (const gpu::Buffer* buffer : {&particles_.id,
                                       &particles_.attributes,
@@ -199,6 +249,7 @@ std::uint64_t Simulation::device_bytes() const
                                       &grid_.sorted_attributes,
                                       &grid_.sorted_position,
                                       &grid_.sorted_velocity,
+                                      &grid_.spare,
                                       &grid_.neighbor_bits,
                                       &grid_.scratch.counts,
                                       &grid_.scratch.unordered,
@@ -218,7 +269,8 @@ ParticleSet Simulation::download() const
 NeighborStatistics Simulation::neighbor_statistics()
 {
     const std::uint32_t count = params_.moving_count;
-    const gpu::Buffer counts = gpu::make_buffer<shared::NeighborCount>(*context_, std::max(count, 1u), "neighbor counts");
+    const gpu::Buffer counts =
+        gpu::make_buffer<shared::NeighborCount>(*context_, std::max(count, 1u), "neighbor counts");
     commands_->begin();
     record_count_neighbors(*commands_, kernels_, params_buffer_, particles_, grid_, counts);
     commands_->submit();

@@ -10,6 +10,7 @@
 #include "particle_buffers/particle_buffers.h"
 #include "particles/particle_set.h"
 #include "shared/sph_params.h"
+#include "sim/erosion.h"
 #include "sim/fluid_kernels.h"
 #include "sim/implicit_viscosity.h"
 #include "sim/neighbor_grid.h"
@@ -21,6 +22,7 @@ namespace meltpoint::sim {
 struct SimulationSettings {
     shared::SphParams params{}; ///< moving_count, pool_count and grid_size are filled in
     FluidOptions options;
+    std::vector<float> release_time; ///< s, by id: when solid particles turn into fluid; empty: none does
 };
 
 /// The params with the numbers of particles and the grid size filled in: all of them move.
@@ -114,6 +116,11 @@ private:
         shared::TimeStep time;
     };
     Readback submit_steps(std::uint32_t steps);
+    /// Where a look at the solids is due: those that are due to turn into fluid do, and the pool is parted anew. `time`
+    /// in s since the start.
+    void erode(double time);
+    /// No more steps than until the next look at the solids.
+    [[nodiscard]] std::uint32_t steps_until_erosion() const;
     void check_status(const shared::Status& status) const;
     [[nodiscard]] std::uint32_t steps_a_submission() const;
     [[nodiscard]] Fluid fluid()
@@ -141,6 +148,7 @@ private:
     std::optional<ImplicitViscosity> viscosity_;
     std::optional<Shifting> shifting_;
     std::optional<Capillarity> capillarity_;
+    std::optional<Erosion> erosion_;
     ParticleBuffers particles_;
     NeighborGrid grid_;
     gpu::Buffer params_buffer_;
@@ -150,7 +158,9 @@ private:
     Vorticity vorticity_;
     std::unique_ptr<BoundaryForces> boundary_forces_;
     std::unique_ptr<gpu::Commands> commands_;
+    std::unique_ptr<gpu::Commands> erosion_commands_; ///< apart, so that timings() are those of steps
     std::uint64_t step_ = 0;
+    std::uint64_t next_erosion_ = 0;    ///< the step before which solids are looked at
     double seconds_ = 0.0;              ///< since the start
     double wanted_seconds_ = 0.0;       ///< of all calls of advance_by
     std::uint64_t solves_taken_at_ = 0; ///< step of the last take_solve_statistics

@@ -50,6 +50,9 @@ public:
     /// One time step; `step` is its number, which a fault is reported with.
     virtual void record_step(gpu::Commands& commands, const Fluid& fluid, std::uint32_t step) = 0;
 
+    /// After record_partition: what it carries itself from one step to the next follows the particles.
+    virtual void record_carry(gpu::Commands& /*commands*/, const Fluid& /*fluid*/) {}
+
     /// Scopes (timestamps) of a step, at most, without those of Fluid::vorticity.
     [[nodiscard]] virtual std::uint32_t scopes() const = 0;
     /// Device memory of its own.

@@ -28,7 +28,8 @@ void TimeControl::record(gpu::Commands& commands, const gpu::Buffer& params, con
         return;
     }
     const gpu::Scope scope(commands, "time step");
-    const std::uint32_t invocations = (particles.moving + shared::PARTICLES_PER_SPEED - 1) / shared::PARTICLES_PER_SPEED;
+    const std::uint32_t invocations =
+        (particles.moving + shared::PARTICLES_PER_SPEED - 1) / shared::PARTICLES_PER_SPEED;
     commands.dispatch(fastest_, invocations, gpu::NoPush{},
                       {read(params), read(particles.velocity), read(particles.acceleration), read(particles.attributes),
                        read_write(state_)});

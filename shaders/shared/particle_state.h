@@ -5,7 +5,7 @@
 
 SHARED_BEGIN
 
-SHARED_CONSTANT uint STATE_SOLID = 0u;
+SHARED_CONSTANT uint STATE_SOLID = 0u; // of a body that may turn into fluid: a boundary particle with a mass
 SHARED_CONSTANT uint STATE_FLUID = 1u;
 SHARED_CONSTANT uint STATE_DUST = 2u;
 SHARED_CONSTANT uint STATE_COLLIDER = 3u;
@@ -17,8 +17,12 @@ SHARED_CONSTANT uint FLAG_LEFT_DOMAIN = 0x10000u; // was outside the domain at l
 
 SHARED_FUNCTION uint particle_state(uint attributes) { return attributes & 0xffu; } // STATE_*
 SHARED_FUNCTION uint particle_material(uint attributes) { return (attributes >> MATERIAL_SHIFT) & 0xffu; } // its number
-// A boundary particle: fluid meets it, but it does not move and has no mass.
-SHARED_FUNCTION bool is_boundary(uint attributes) { return particle_state(attributes) == STATE_COLLIDER; }
+// A boundary particle: fluid meets it, but no force moves it.
+SHARED_FUNCTION bool is_boundary(uint attributes)
+{
+    return particle_state(attributes) == STATE_COLLIDER || particle_state(attributes) == STATE_SOLID;
+}
+SHARED_FUNCTION uint with_state(uint attributes, uint state) { return (attributes & ~0xffu) | state; }
 SHARED_FUNCTION uint pack_attributes(uint state, uint material) { return state | (material << MATERIAL_SHIFT); } // no flags
 
 // Why the simulation stopped.

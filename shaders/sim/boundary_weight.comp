@@ -1,9 +1,9 @@
 #version 460
 #extension GL_EXT_control_flow_attributes : require
 #extension GL_GOOGLE_include_directive : require
-// The weight of boundary particles: s_b = V_b / d^3 with V_b = 1 / sum_k W_bk over boundary particles and their images in
-// the walls (Akinci et al. 2012), so that a surface has the same effect however densely it is sampled, or unevenly. Twin:
-// engine/reference/boundary.cpp.
+// The weight of colliders' particles: s_b = V_b / d^3 with V_b = 1 / sum_k W_bk over such particles and their images in
+// the walls (Akinci et al. 2012), so that a surface has the same effect however densely it is sampled, or unevenly. Solids are
+// filled with particles, whose weight is 1 as in a fluid. Twin: engine/reference/boundary.cpp.
 #define CELL_START_BINDING 1
 #include "include/candidate.glsl"
 #include "include/invocation.glsl"
@@ -39,7 +39,7 @@ void main()
         Walk walk = begin_walk(x);
         FOR_EACH_CANDIDATE(range, walk) {
             vec3 xj = load_candidate(position, range.x).xyz;
-            float counts = is_boundary(attributes[range.x]) ? 1.0 : 0.0;
+            float counts = particle_state(attributes[range.x]) == STATE_COLLIDER ? 1.0 : 0.0;
             [[unroll]] for (uint k = 0u; k < TILE; ++k) {
                 vec3 offset = x[k] - xj;
                 sum[k] += counts * density_shape(dot(offset, offset), size);
@@ -52,7 +52,7 @@ void main()
         if (i > tile.last) {
             break;
         }
-        float weight = is_boundary(attributes[i]) ? 1.0 / (params.lattice_volume * params.density_scale * sum[k]) : own[k].w;
+        float weight = particle_state(attributes[i]) == STATE_COLLIDER ? 1.0 / (params.lattice_volume * params.density_scale * sum[k]) : own[k].w;
         weighted[i] = vec4(own[k].xyz, weight);
     }
 }

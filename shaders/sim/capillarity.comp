@@ -128,7 +128,7 @@ void main()
                 float cling = max(loose[k], loose_j) * 4.0 * apart * (1.0 - apart);
                 float push = mean_sigma * crowding * (max(1.0 - r / crowding_distance, 0.0) - cling);
                 image_force[k] -= has_direction(r2, size) ? push / r * offset : vec3(0.0);
-                float mean_density = 0.5 * (density[k] + velocity_j.w / volume_j);
+                float mean_density = 0.5 * (density[k] + max(velocity_j.w, 0.0) / volume_j);
                 float drag = SURFACE_DRAG * sqrt(mean_sigma * mean_density * params.spacing) * max(at_surface[k], at_surface_j);
                 float laplacian = params.viscosity_scale * force_shapes(r2, size).y;
                 image_force[k] += drag * volume[k] * volume_j * laplacian * (velocity_j.xyz - v[k]);

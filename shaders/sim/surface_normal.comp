@@ -90,7 +90,7 @@ void main()
         FOR_EACH_NEIGHBOR(tile, walk, x, chunks, bits) {
             uint j = chunks.first + findLSB(bits);
             vec4 xj = load_candidate(position, j); // w: weight
-            bool is_solid = COLLIDERS && load_candidate(velocity, j).w == 0.0;
+            bool is_solid = COLLIDERS && load_candidate(velocity, j).w <= 0.0;
             float solid_weight = is_solid ? xj.w : 0.0;
             float cosine = COLLIDERS ? params.contact_cosine[particle_material(attributes[j])] : 0.0;
             [[unroll]] for (uint k = 0u; k < TILE; ++k) {

@@ -61,10 +61,10 @@ void main()
             uint j = chunks.first + findLSB(bits);
             vec3 xj = load_candidate(position, j).xyz;
             vec4 vj = load_candidate(velocity, j); // boundary particles have no mass
-            float density_j = vj.w / load_candidate(interaction, j).y;
+            float density_j = max(vj.w, 0.0) / load_candidate(interaction, j).y;
             [[unroll]] for (uint k = 0u; k < TILE; ++k) {
                 vec3 offset = x[k] - xj;
-                float share = vj.w / (density[k] + density_j) * density_shape(dot(offset, offset), size);
+                float share = max(vj.w, 0.0) / (density[k] + density_j) * density_shape(dot(offset, offset), size);
                 image_change[k] += share * (vj.xyz - v[k]);
             }
         }

@@ -270,11 +270,18 @@ TEST_P(PassConformance, SeveralFluids)
     expect_conformance(settings, particles);
 }
 
-// Boundary particles in a grid of their own.
+// Boundary particles in a grid of their own, colliders and solids.
 TEST_P(PassConformance, StillParticles)
 {
     const auto [state, kernel] = GetParam();
-    const ParticleSet particles = states()[state].make();
+    ParticleSet particles = states()[state].make();
+    for (std::size_t i = 0; i < particles.size(); i += 2) { // some of a solid that fills its space
+        if (shared::is_boundary(particles.attributes[i])) {
+            particles.attributes[i] = shared::with_state(particles.attributes[i], shared::STATE_SOLID);
+            particles.mass[i] = test_rest_density * d * d * d;
+            particles.weight[i] = 1.0f;
+        }
+    }
     sim::SimulationSettings plain = test_settings(kernel);
     plain.options.still = true;
     plain.params.friction[1] = 3.0f;

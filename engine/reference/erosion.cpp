@@ -1,0 +1,18 @@
+#include "reference/erosion.h"
+
+namespace meltpoint::reference {
+
+std::size_t release(State& state, std::span<const float> release_time, double time)
+{
+    std::size_t freed = 0;
+    for (std::size_t i = 0; i < state.size(); ++i) {
+        if (shared::particle_state(state.attributes[i]) == shared::STATE_SOLID &&
+            time >= static_cast<double>(release_time[state.id[i]])) {
+            state.attributes[i] = shared::with_state(state.attributes[i], shared::STATE_FLUID);
+            ++freed;
+        }
+    }
+    return freed;
+}
+
+} // namespace meltpoint::reference

@@ -1,0 +1,38 @@
+#pragma once
+
+#include <cstdint>
+#include <span>
+
+#include "gpu/commands.h"
+#include "particle_buffers/particle_buffers.h"
+#include "sim/fluid_kernels.h"
+
+namespace meltpoint::sim {
+
+/// What turns solid particles into fluid. They are among the still particles; the simulation parts the pool anew after
+/// some were freed.
+class Erosion {
+public:
+    /// Steps from one look at the solids to the next. Parting the pool costs as much as some steps of a fluid a tenth
+    /// of its size, and nothing that erodes moves far in so many steps.
+    static constexpr std::uint32_t interval = 16;
+
+    /// release_time: s since the start, by id, when a front reaches a particle; infinite where none does.
+    Erosion(const gpu::Context& context, std::span<const float> release_time);
+
+    /// Frees the solid particles that a front has reached at `time` seconds. They lie among the still ones yet.
+    void record_front(gpu::Commands& commands, const gpu::Buffer& params, const ParticleBuffers& particles,
+                      float time) const;
+    /// How many particles the last record_front has freed: after its commands are done.
+    [[nodiscard]] std::uint32_t freed() const;
+
+    [[nodiscard]] std::uint64_t device_bytes() const { return release_time_.size() + freed_.size(); }
+
+private:
+    gpu::Kernel front_;
+    gpu::Buffer release_time_;
+    gpu::Buffer freed_;    ///< uint
+    gpu::Buffer readback_; ///< the same
+};
+
+} // namespace meltpoint::sim

@@ -1,0 +1,26 @@
+#version 460
+#extension GL_GOOGLE_include_directive : require
+// Solid particles that a front has reached turn into fluid: they keep their place, velocity, mass and material, and from now on
+// forces move them. Twin: engine/reference/erosion.cpp.
+#include "include/invocation.glsl"
+#include "shared/particle_state.h"
+#include "shared/sph_params.h"
+
+layout(push_constant, scalar) uniform Push { float time; }; // s
+layout(set = 0, binding = 0, scalar) uniform Params { SphParams params; };
+layout(set = 0, binding = 1, scalar) readonly buffer Id { uint id[]; };
+layout(set = 0, binding = 2, scalar) readonly buffer ReleaseTime { float release_time[]; }; // by id, s
+layout(set = 0, binding = 3, scalar) buffer Attributes { uint attributes[]; };
+layout(set = 0, binding = 4, scalar) buffer Velocity { vec4 velocity[]; }; // w: mass, negative of boundary particles
+layout(set = 0, binding = 5, scalar) buffer Freed { uint freed; };
+
+void main()
+{
+    uint i = params.moving_count + invocation_index();
+    if (i >= params.pool_count || particle_state(attributes[i]) != STATE_SOLID || time < release_time[id[i]]) {
+        return;
+    }
+    attributes[i] = with_state(attributes[i], STATE_FLUID);
+    velocity[i].w = abs(velocity[i].w);
+    atomicAdd(freed, 1u);
+}

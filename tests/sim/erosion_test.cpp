@@ -1,0 +1,193 @@
+// Solids that fronts turn into fluid: who is freed and when, that nothing is lost, and that it does no more than that.
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <limits>
+#include <numeric>
+#include <vector>
+
+#include "conformance/pass_comparison.h"
+#include "core/random.h"
+#include "reference/erosion.h"
+#include "support/fluid_states.h"
+#include "support/gpu_test.h"
+
+namespace meltpoint {
+namespace {
+
+constexpr float d = test_spacing;
+constexpr float never = std::numeric_limits<float>::infinity();
+
+class ErosionTest : public GpuTest {
+protected:
+    static sim::SimulationSettings settings(std::uint32_t solver)
+    {
+        sim::SimulationSettings settings = test_settings(shared::KERNEL_WENDLAND);
+        settings.options.solver = solver;
+        settings.options.still = true;
+        settings.params.dt = solver == shared::SOLVER_WCSPH ? 2e-4f : 1e-3f;
+        return settings;
+    }
+
+    /// Half a lattice is fluid, half solid; and a plate beside it.
+    static ParticleSet half_solid()
+    {
+        ParticleSet set = lattice_state({10, 8, 10}, glm::vec3(0.2f, 0.4f, 0.2f));
+        for (std::size_t i = 0; i < set.size(); ++i) {
+            if (i % 2 == 0) {
+                set.attributes[i] = shared::pack_attributes(shared::STATE_SOLID, 2);
+            }
+        }
+        add_plate(set, 1.0f, 0.3f, 0.75f * d, 0.3f, 3);
+        return set;
+    }
+
+    /// Some at once, most within `span` seconds, some never.
+    static std::vector<float> times(const ParticleSet& set, double span)
+    {
+        Random random(5);
+        std::vector<float> release(set.size());
+        for (float& time : release) {
+            const double draw = random.uniform();
+            time = draw < 0.1 ? 0.0f : draw > 0.8 ? never : static_cast<float>((draw - 0.1) * span);
+        }
+        return release;
+    }
+
+    static std::vector<std::uint32_t> solids(const ParticleSet& set)
+    {
+        std::vector<std::uint32_t> ids;
+        for (std::size_t i = 0; i < set.size(); ++i) {
+            if (shared::particle_state(set.attributes[i]) == shared::STATE_SOLID) {
+                ids.push_back(set.id[i]);
+            }
+        }
+        return ids;
+    }
+};
+
+TEST_F(ErosionTest, AFrontFreesWhatItHasReachedAndNothingIsLost)
+{
+    for (const std::uint32_t solver : {shared::SOLVER_WCSPH, shared::SOLVER_DFSPH, shared::SOLVER_PBF}) {
+        SCOPED_TRACE(solver);
+        sim::SimulationSettings its = settings(solver);
+        const ParticleSet start = half_solid();
+        its.release_time = times(start, 10.0 * sim::Erosion::interval * static_cast<double>(its.params.dt));
+        sim::Simulation simulation(context(), start, its);
+        reference::State twin = reference::from_particle_set(start);
+        std::size_t freed = 0;
+        for (int look = 0; look < 10; ++look) {
+            freed += reference::release(twin, its.release_time, simulation.time());
+            simulation.advance(sim::Erosion::interval);
+            const ParticleSet now = simulation.download();
+            ASSERT_EQ(now.size(), start.size());
+            for (std::size_t i = 0; i < now.size(); ++i) {
+                EXPECT_EQ(now.id[i], i);
+                EXPECT_EQ(now.mass[i], start.mass[i]);
+                EXPECT_EQ(now.attributes[i], twin.attributes[i]) << "particle " << i << ", t = " << simulation.time();
+                if (shared::is_boundary(now.attributes[i])) {
+                    EXPECT_EQ(now.position[i], start.position[i]);
+                    EXPECT_EQ(now.velocity[i], glm::vec3(0.0f));
+                }
+            }
+        }
+        EXPECT_GT(freed, start.size() / 5);
+        EXPECT_GT(solids(simulation.download()).size(), 50u); // whom no front reaches
+    }
+}
+
+TEST_F(ErosionTest, WhatIsFreedMovesAsFluidDoes)
+{
+    for (const std::uint32_t solver : {shared::SOLVER_WCSPH, shared::SOLVER_DFSPH, shared::SOLVER_PBF}) {
+        SCOPED_TRACE(solver);
+        sim::SimulationSettings its = settings(solver);
+        its.options.implicit_viscosity = solver != shared::SOLVER_PBF;
+        its.options.xsph = its.options.confinement = true;
+        its.params.xsph = 0.2f;
+        its.params.vorticity_confinement = 1.0f;
+        // A set number of iterations, or rounding alone would decide how many there are.
+        its.params.density_error = its.params.divergence_error = its.params.viscosity_error = 0.0f;
+        its.params.max_iterations = its.params.viscosity_iterations = 5;
+        const ParticleSet start = half_solid();
+        const float second_look = (static_cast<float>(sim::Erosion::interval) - 0.5f) * its.params.dt;
+        its.release_time = times(start, 0.0);
+        for (float& time : its.release_time) { // all that there is to free, half a step before the second look
+            time = time == 0.0f ? second_look : time;
+        }
+        for (const conformance::PassError& error :
+             conformance::compare_steps(context(), start, its, sim::Erosion::interval + 1)) {
+            EXPECT_TRUE(error.conforms()) << error.pass << ": " << error.error << " > " << error.bound;
+        }
+    }
+}
+
+TEST_F(ErosionTest, FreedParticlesAreNotKicked)
+{
+    for (const std::uint32_t solver : {shared::SOLVER_WCSPH, shared::SOLVER_DFSPH, shared::SOLVER_PBF}) {
+        SCOPED_TRACE(solver);
+        sim::SimulationSettings its = settings(solver);
+        its.params.gravity = glm::vec3(0.0f);
+        its.params.correction_time = 1e-2f;
+        its.params.artificial_pressure = 0.0f; // which moves particles at any surface
+        ParticleSet start = lattice_state({10, 10, 10}, glm::vec3(0.25f));
+        std::ranges::fill(start.attributes, shared::pack_attributes(shared::STATE_SOLID, 2));
+        its.release_time = times(start, 20.0 * static_cast<double>(its.params.dt));
+        sim::Simulation simulation(context(), start, its);
+        double fastest = 0.0;
+        for (int look = 0; look < 10; ++look) {
+            simulation.advance(10);
+            for (const glm::vec3& v : simulation.download().velocity) {
+                fastest = std::max(fastest, static_cast<double>(glm::length(v)));
+            }
+        }
+        EXPECT_LT(solids(simulation.download()).size(), start.size() / 2);
+        EXPECT_LT(fastest, 0.02 * static_cast<double>(its.params.speed_of_sound));
+    }
+}
+
+TEST_F(ErosionTest, RerunsGiveTheSameBitsInAnyPortions)
+{
+    for (const std::uint32_t solver : {shared::SOLVER_WCSPH, shared::SOLVER_DFSPH}) {
+        SCOPED_TRACE(solver);
+        sim::SimulationSettings its = settings(solver);
+        const ParticleSet start = half_solid();
+        its.release_time = times(start, 80.0 * static_cast<double>(its.params.dt));
+        sim::Simulation whole(context(), start, its);
+        whole.advance(100);
+        sim::Simulation portions(context(), start, its);
+        for (const std::uint32_t steps : {1u, 7u, 16u, 20u, 50u, 6u}) {
+            portions.advance(steps);
+        }
+        const ParticleSet a = whole.download();
+        const ParticleSet b = portions.download();
+        EXPECT_EQ(a.position, b.position);
+        EXPECT_EQ(a.velocity, b.velocity);
+        EXPECT_EQ(a.attributes, b.attributes);
+        EXPECT_EQ(a.density, b.density);
+    }
+}
+
+TEST_F(ErosionTest, ASimulationMayBeginWithoutAnyFluid)
+{
+    for (const std::uint32_t solver : {shared::SOLVER_WCSPH, shared::SOLVER_DFSPH, shared::SOLVER_PBF}) {
+        SCOPED_TRACE(solver);
+        sim::SimulationSettings its = settings(solver);
+        its.params.adaptive_dt = 1;
+        its.params.cfl_length = 0.4f * d;
+        its.params.cfl_speed = solver == shared::SOLVER_WCSPH ? its.params.speed_of_sound : 0.0f;
+        its.params.longest_dt = 2e-3f;
+        its.params.longest_move = 0.5f * its.params.support_radius;
+        ParticleSet start = lattice_state({6, 6, 6}, glm::vec3(0.3f));
+        std::ranges::fill(start.attributes, shared::pack_attributes(shared::STATE_SOLID, 2));
+        its.release_time.assign(start.size(), 0.05f);
+        sim::Simulation simulation(context(), start, its);
+        simulation.advance_by(0.04);
+        EXPECT_EQ(simulation.download().position, start.position);
+        simulation.advance_by(0.06);
+        EXPECT_TRUE(solids(simulation.download()).empty());
+        EXPECT_LT(simulation.download().velocity[0].y, -0.05f); // it falls
+    }
+}
+
+} // namespace
+} // namespace meltpoint
