@@ -683,15 +683,51 @@ mutation "solve: too strong a relaxation" \
     'std::min(0.5, 3.0 * relaxation / eigenvalue' \
     physics_short_tests 'Incompressible.DamBreak*'
 mutation "solve: warm starts stay behind in the sort" \
-    shaders/sim/reorder_warm_start.comp \
-    'warm_start[order[slot]]' \
-    'warm_start[slot]' \
+    shaders/sim/gather.comp \
+    'source[order[slot] * push.words + k]' \
+    'source[slot * push.words + k]' \
     conformance_tests 'Steps.StepsWithSolvedPressureAreTheTwins'
 mutation "drift: no contact with walls" \
     shaders/sim/drift.comp \
     'vec3 v = with_contact(position[i].xyz, velocity[i].xyz, params.dt)' \
     'vec3 v = velocity[i].xyz' \
     conformance_tests 'Steps.WallsHoldALoneParticle'
+mutation "still particles: none of them are met" \
+    shaders/include/neighbor_walk.glsl \
+    'STILL && walk.table == 0' \
+    'false && walk.table == 0' \
+    conformance_tests '*PassConformance.StillParticles/OnACollider*'
+mutation "still particles: the spare buffers know nothing of them" \
+    engine/sim/neighbor_grid.cpp \
+    'commands.copy(*from, *to, from->size() - first, first, first);' \
+    '' \
+    conformance_tests 'Steps.StepsBesideStillParticlesAreTheTwins'
+mutation "partition: accelerations stay behind" \
+    engine/sim/neighbor_grid.cpp \
+    'std::swap(particles.acceleration, particles.interaction);' \
+    '' \
+    conformance_tests 'ErosionTest.*'
+mutation "solids: a front frees what it has not reached" \
+    shaders/sim/front.comp \
+    'time < release_time[id[i]]' \
+    '1.1 * time < release_time[id[i]]' \
+    conformance_tests 'ErosionTest.*'
+mutation "solids: what is freed weighs nothing" \
+    shaders/sim/front.comp \
+    'velocity[i].w = abs(velocity[i].w);' \
+    '' \
+    conformance_tests 'ErosionTest.*'
+mutation "solids: viscous changes stay behind when the pool is parted" \
+    engine/sim/implicit_viscosity.cpp \
+    'record_gather(commands, fluid.kernels, fluid.grid.order, change_, product_, {fluid.particles.count, 4});
+    std::swap(change_, product_);' \
+    '' \
+    conformance_tests 'ErosionTest.WhatIsFreedMovesAsFluidDoes'
+mutation "solids: warm starts stay behind when the pool is parted" \
+    engine/sim/dfsph.cpp \
+    'record_reorder(commands, fluid, fluid.particles.count);' \
+    '' \
+    conformance_tests 'ErosionTest.WhatIsFreedMovesAsFluidDoes'
 mutation "solve: all of an excess is taken away, however short the step" \
     shaders/shared/solve.h \
     'return dt < correction_time ? dt / correction_time : 1.0f' \

@@ -443,8 +443,8 @@ std::vector<PassError> compare_steps(const gpu::Context& context, const Particle
 
     simulation.advance(steps);
     for (std::uint32_t i = 0; i < steps; ++i) {
-        if (!settings.release_time.empty() && i % sim::Erosion::interval == 0) {
-            (void)reference::release(twin, settings.release_time, i * static_cast<double>(settings.params.dt));
+        if (!particles.release_time.empty() && i % sim::Erosion::interval == 0) {
+            (void)reference::release(twin, particles.release_time, i * static_cast<double>(settings.params.dt));
         }
         twin_step();
     }

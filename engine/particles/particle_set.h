@@ -11,7 +11,7 @@
 namespace meltpoint {
 
 /// The particles on the host, one array an attribute: the one form that the CPU reference, exports and checkpoints
-/// share. SI units. All arrays have the same length. In a set that comes from the device or from sampling, particle i
+/// share. SI units. All arrays but the last have the same length. In a set that comes from the device or from sampling, particle i
 /// has id i.
 struct ParticleSet {
     std::vector<std::uint32_t> id;
@@ -23,6 +23,10 @@ struct ParticleSet {
     std::vector<float> weight;   ///< in its neighbors' number density: 1 for fluids and solids, V/d^3 for colliders
     std::vector<float> density;  ///< kg/m^3, boundary contributions included
     std::vector<float> pressure; ///< Pa
+
+    /// s since the start, when a front reaches a solid particle and it turns into fluid; infinite where none does.
+    /// Empty where there are none: the one array that may be. It is not read back from the device.
+    std::vector<float> release_time;
 
     [[nodiscard]] std::size_t size() const { return position.size(); } ///< particles
 

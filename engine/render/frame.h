@@ -58,6 +58,7 @@ struct FrameSettings {
     float splat_radius = 0.01f;                        ///< of particles
     std::array<float, shared::MAX_MATERIALS> rest_density{};
     std::array<glm::vec3, shared::MAX_MATERIALS> material_color{};
+    std::array<glm::vec3, shared::MAX_MATERIALS> solid_color{}; ///< of solid particles of a material
 };
 
 /// What a frame shows.

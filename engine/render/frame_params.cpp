@@ -70,6 +70,7 @@ shared::RenderParams frame_params(const FrameSettings& settings, std::uint32_t w
     params.line_color = settings.box_color;
     params.samples = samples;
     std::copy(settings.material_color.begin(), settings.material_color.end(), std::begin(params.material_color));
+    std::copy(settings.solid_color.begin(), settings.solid_color.end(), std::begin(params.solid_color));
     std::copy(settings.rest_density.begin(), settings.rest_density.end(), std::begin(params.rest_density));
     return params;
 }

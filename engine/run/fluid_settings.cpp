@@ -46,8 +46,11 @@ double largest_viscosity(const Scene& scene)
 {
     const float at_walls = scene.domain.walls ? scene.domain.wall_viscosity : 0.0f;
     float largest = at_walls;
-    for (const FluidBody& fluid : scene.fluids) {
-        largest = std::max(largest, fluid.viscosity.value_or(scene.physics.viscosity));
+    for (const FluidBody* fluid : fluid_bodies(scene)) {
+        largest = std::max(largest, fluid->viscosity.value_or(scene.physics.viscosity));
+    }
+    for (const SolidBody& solid : scene.solids) {
+        largest = std::max(largest, solid.friction);
     }
     for (const ColliderBody& collider : scene.colliders) {
         largest = std::max(largest, collider.friction);
@@ -59,8 +62,8 @@ double largest_viscosity(const Scene& scene)
 double least_viscosity(const Scene& scene)
 {
     float least = std::numeric_limits<float>::infinity();
-    for (const FluidBody& fluid : scene.fluids) {
-        least = std::min(least, fluid.viscosity.value_or(scene.physics.viscosity));
+    for (const FluidBody* fluid : fluid_bodies(scene)) {
+        least = std::min(least, fluid->viscosity.value_or(scene.physics.viscosity));
     }
     return static_cast<double>(least);
 }
@@ -69,10 +72,10 @@ double least_viscosity(const Scene& scene)
 double tension_bound(const Scene& scene)
 {
     double bound = std::numeric_limits<double>::infinity();
-    for (const FluidBody& fluid : scene.fluids) {
-        const double sigma = static_cast<double>(tension_of(scene, fluid));
+    for (const FluidBody* fluid : fluid_bodies(scene)) {
+        const double sigma = static_cast<double>(tension_of(scene, *fluid));
         const double mass =
-            static_cast<double>(fluid.rest_density) * std::pow(static_cast<double>(scene.particles.spacing), 3.0);
+            static_cast<double>(fluid->rest_density) * std::pow(static_cast<double>(scene.particles.spacing), 3.0);
         bound = sigma > 0.0 ? std::min(bound, 0.2 * std::sqrt(mass / sigma)) : bound;
     }
     return bound;
@@ -80,9 +83,10 @@ double tension_bound(const Scene& scene)
 
 bool differ_in_viscosity(const Scene& scene)
 {
-    return std::ranges::any_of(scene.fluids, [&](const FluidBody& fluid) {
-        const float first = scene.fluids.front().viscosity.value_or(scene.physics.viscosity);
-        return fluid.viscosity.value_or(scene.physics.viscosity) != first;
+    const std::vector<const FluidBody*> bodies = fluid_bodies(scene);
+    return std::ranges::any_of(bodies, [&](const FluidBody* fluid) {
+        const float first = bodies.front()->viscosity.value_or(scene.physics.viscosity);
+        return fluid->viscosity.value_or(scene.physics.viscosity) != first;
     });
 }
 
@@ -104,8 +108,8 @@ double fall_work(const Scene& scene, const glm::dvec3& x)
 double heaviest_rest_density(const Scene& scene)
 {
     double heaviest = 0.0;
-    for (const FluidBody& body : scene.fluids) {
-        heaviest = std::max(heaviest, static_cast<double>(body.rest_density));
+    for (const FluidBody* body : fluid_bodies(scene)) {
+        heaviest = std::max(heaviest, static_cast<double>(body->rest_density));
     }
     return heaviest;
 }
@@ -195,8 +199,8 @@ TimeStepBounds time_step_bounds(const Scene& scene, double speed_of_sound, doubl
 {
     const double support = support_radius(scene);
     double lightest = std::numeric_limits<double>::infinity();
-    for (const FluidBody& body : scene.fluids) {
-        lightest = std::min(lightest, static_cast<double>(body.rest_density));
+    for (const FluidBody* body : fluid_bodies(scene)) {
+        lightest = std::min(lightest, static_cast<double>(body->rest_density));
     }
     const double viscosity = largest_viscosity(scene);
     const double cfl = scene.solver == Solver::Wcsph
@@ -346,7 +350,7 @@ FluidSettings fluid_settings(const Scene& any_scene, const ParticleSet& particle
     options.mixed_viscosity = differ_in_viscosity(scene);
     options.tension = params.surface_tension > 0.0f;
     options.still = std::ranges::any_of(particles.attributes, shared::is_boundary);
-    options.colliders = options.capillarity && !scene.colliders.empty();
+    options.colliders = options.capillarity && options.still;
     options.xsph = params.xsph > 0.0f;
     options.confinement = params.vorticity_confinement > 0.0f;
     options.shifting = params.shifting > 0.0f;

@@ -85,6 +85,7 @@ render::FrameSettings frame_settings(const Scene& any_scene, const shared::SphPa
     for (std::size_t i = 0; i < materials.materials.size(); ++i) {
         settings.rest_density[i] = materials.materials[i].rest_density;
         settings.material_color[i] = materials.materials[i].color;
+        settings.solid_color[i] = materials.materials[i].solid_color;
         heaviest = std::max(heaviest, materials.materials[i].rest_density);
     }
     settings.color_range = scene.render.color_range.value_or(color_range(scene, params, heaviest));

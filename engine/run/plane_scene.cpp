@@ -30,6 +30,9 @@ Scene in_its_dimensions(const Scene& scene)
         for (FluidBody& fluid : flat.fluids) {
             lay_flat(fluid.shape, half_thickness);
         }
+        for (SolidBody& solid : flat.solids) {
+            lay_flat(solid.shape, half_thickness);
+        }
         for (ColliderBody& collider : flat.colliders) {
             lay_flat(collider.shape, half_thickness);
         }

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <memory>
 #include <numbers>
 
@@ -14,6 +15,7 @@
 #include "geometry/relaxation.h"
 #include "geometry/volume_sampling.h"
 #include "particles/boundary_distance.h"
+#include "run/dissolve_front.h"
 #include "run/placed_mesh.h"
 #include "run/plane_scene.h"
 #include "run/scene_colliders.h"
@@ -29,12 +31,36 @@ namespace {
 // on settled blue noise: 0.03, 0.05 and 0.04 at H = 2, 2.6 and 3 d.
 constexpr double settled = 0.04;
 
-/// Fluid `f` of the scene as blue noise, relaxed as its kernel and the domain's walls will see it.
-VolumeSamples sample_blue_noise(const Scene& scene, std::size_t f, const Solid& solid)
+/// A body that is filled with particles, and what its errors call it.
+struct FilledBody {
+    std::string name; ///< "fluid.0"
+    const FluidBody& body;
+    const SolidBody* solid; ///< the same, if it is one
+    std::uint32_t material;
+    std::uint64_t seed;
+};
+
+/// The fluids, then the solids.
+std::vector<FilledBody> filled_bodies(const Scene& scene, const SceneMaterials& materials)
+{
+    std::vector<FilledBody> bodies;
+    for (std::size_t f = 0; f < scene.fluids.size(); ++f) {
+        bodies.push_back(
+            {fmt::format("fluid.{}", f), scene.fluids[f], nullptr, materials.of_fluid[f], scene.seed + bodies.size()});
+    }
+    for (std::size_t s = 0; s < scene.solids.size(); ++s) {
+        bodies.push_back({fmt::format("solid.{}", s), scene.solids[s], &scene.solids[s], materials.of_solid[s],
+                          scene.seed + bodies.size()});
+    }
+    return bodies;
+}
+
+/// A body as blue noise, relaxed as its kernel and the domain's walls will see it.
+VolumeSamples sample_blue_noise(const Scene& scene, std::uint64_t seed, const Solid& solid)
 {
     VolumeRequest request{.lattice = Lattice::BlueNoise,
                           .amount = PointSpacing{static_cast<double>(scene.particles.spacing)},
-                          .seed = scene.seed + f};
+                          .seed = seed};
     // Narrower kernels hardly see a fluid, wider ones see none of what is left uneven.
     request.relaxation.support_ratio = std::clamp(static_cast<double>(scene.particles.support_ratio), 2.0, 3.0);
     if (scene.domain.walls) {
@@ -55,15 +81,15 @@ VolumeSamples sample_plane_shape(const BodyShape& shape, double spacing)
                       shape);
 }
 
-VolumeSamples sample_shape(const Scene& scene, std::size_t f, const Solid& solid)
+VolumeSamples sample_shape(const Scene& scene, const FilledBody& filled, const Solid& solid)
 {
-    const FluidBody& body = scene.fluids[f];
+    const FluidBody& body = filled.body;
     const auto spacing = static_cast<double>(scene.particles.spacing);
     if (scene.domain.dimensions == 2) {
         return sample_plane_shape(body.shape, spacing);
     }
     if (body.lattice == FluidLattice::BlueNoise) {
-        return sample_blue_noise(scene, f, solid);
+        return sample_blue_noise(scene, filled.seed, solid);
     }
     return std::visit(Overloaded{
                           [&](const BlockShape& block) {
@@ -75,15 +101,15 @@ VolumeSamples sample_shape(const Scene& scene, std::size_t f, const Solid& solid
                       body.shape);
 }
 
-/// Fluid `f` of the scene, which its errors name, and the file that it comes from.
-VolumeSamples sample_fluid(const Scene& scene, std::size_t f, const Solid& solid)
+/// What errors say names the body and the file that it comes from.
+VolumeSamples sample_body(const Scene& scene, const FilledBody& filled, const Solid& solid)
 {
     try {
-        return sample_shape(scene, f, solid);
+        return sample_shape(scene, filled, solid);
     } catch (const Error& error) {
-        const auto* mesh = std::get_if<MeshShape>(&scene.fluids[f].shape);
+        const auto* mesh = std::get_if<MeshShape>(&filled.body.shape);
         const std::string file = mesh != nullptr ? fmt::format(" ({})", mesh->mesh) : "";
-        throw Error(error.kind(), fmt::format("{}: fluid.{}{}: {}", scene.name, f, file, error.what()));
+        throw Error(error.kind(), fmt::format("{}: {}{}: {}", scene.name, filled.name, file, error.what()));
     }
 }
 
@@ -127,7 +153,7 @@ double expected_particles(const FluidBody& body, const Solid& solid, double spac
     return volume / std::pow(spacing, 3);
 }
 
-void check_inside(const Scene& scene, const VolumeSamples& samples, std::size_t fluid)
+void check_inside(const Scene& scene, const VolumeSamples& samples, const std::string& name)
 {
     Aabb box;
     for (const glm::vec3& position : samples.positions) {
@@ -135,9 +161,9 @@ void check_inside(const Scene& scene, const VolumeSamples& samples, std::size_t 
     }
     const Aabb domain{scene.domain.min, scene.domain.max};
     if (!domain.contains(box.min) || !domain.contains(box.max)) {
-        throw input_error("{}: fluid.{} reaches outside the domain: its particles lie in [{:.4g}, {:.4g}, {:.4g}] to "
+        throw input_error("{}: {} reaches outside the domain: its particles lie in [{:.4g}, {:.4g}, {:.4g}] to "
                           "[{:.4g}, {:.4g}, {:.4g}] m",
-                          scene.name, fluid, box.min.x, box.min.y, box.min.z, box.max.x, box.max.y, box.max.z);
+                          scene.name, name, box.min.x, box.min.y, box.min.z, box.max.x, box.max.y, box.max.z);
     }
 }
 
@@ -162,8 +188,10 @@ float least_distance(const FluidBody& body, const VolumeSamples& samples, double
     return static_cast<float>(least);
 }
 
-void add_fluid(ParticleSet& particles, const FluidBody& body, const VolumeSamples& samples, std::uint32_t material)
+void add_body(ParticleSet& particles, const FilledBody& filled, const VolumeSamples& samples)
 {
+    const FluidBody& body = filled.body;
+    const std::uint32_t state = filled.solid != nullptr ? shared::STATE_SOLID : shared::STATE_FLUID;
     const std::size_t first = particles.size();
     particles.resize(first + samples.positions.size());
     glm::dvec3 center(0.0);
@@ -177,7 +205,7 @@ void add_fluid(ParticleSet& particles, const FluidBody& body, const VolumeSample
         particles.velocity[first + i] =
             body.velocity + body.velocity_gradient * x + glm::cross(body.spin, x - spin_center);
         particles.mass[first + i] = static_cast<float>(double{body.rest_density} * samples.particle_volume);
-        particles.attributes[first + i] = shared::pack_attributes(shared::STATE_FLUID, material);
+        particles.attributes[first + i] = shared::pack_attributes(state, filled.material);
     }
 }
 
@@ -201,16 +229,19 @@ SceneParticles make_scene_particles(const Scene& any_scene, std::uint64_t limit)
     const double spacing = static_cast<double>(scene.particles.spacing);
     double expected = 0.0;
     std::vector<std::unique_ptr<Solid>> solids; // a scan takes long to be made into one
-    for (const FluidBody& body : scene.fluids) {
-        solids.push_back(placed_solid(body.shape));
-        expected +=
-            flat ? expected_plane_particles(body, spacing) : expected_particles(body, *solids.back(), spacing, limit);
+    const SceneMaterials materials = scene_materials(scene);
+    const std::vector<FilledBody> bodies = filled_bodies(scene, materials);
+    for (const FilledBody& filled : bodies) {
+        solids.push_back(placed_solid(filled.body.shape));
+        expected += flat ? expected_plane_particles(filled.body, spacing)
+                         : expected_particles(filled.body, *solids.back(), spacing, limit);
     }
     if (expected > static_cast<double>(limit)) {
         throw_too_many(scene, expected, limit);
     }
 
     SceneParticles result;
+    std::vector<float> release;
     const std::uint32_t kernel = scene.kernel == SphKernel::Wendland ? shared::KERNEL_WENDLAND : shared::KERNEL_PAPER;
     const double support_ratio = static_cast<double>(scene.particles.support_ratio);
     const double distance = boundary_distance(kernel, support_ratio, scene.domain.dimensions);
@@ -222,24 +253,28 @@ SceneParticles make_scene_particles(const Scene& any_scene, std::uint64_t limit)
         taken.add(fmt::format("collider.{}", c), colliders[c], clearance);
     }
 
-    const SceneMaterials materials = scene_materials(scene);
-    for (std::size_t f = 0; f < scene.fluids.size(); ++f) {
-        const std::string name = fmt::format("fluid.{}", f);
-        VolumeSamples samples = sample_fluid(scene, f, *solids[f]);
-        check_inside(scene, samples, f);
-        const Pitch pitch{.nearest = least_distance(scene.fluids[f], samples, spacing, scene.domain.dimensions),
+    for (std::size_t b = 0; b < bodies.size(); ++b) {
+        const FilledBody& filled = bodies[b];
+        VolumeSamples samples = sample_body(scene, filled, *solids[b]);
+        check_inside(scene, samples, filled.name);
+        const Pitch pitch{.nearest = least_distance(filled.body, samples, spacing, scene.domain.dimensions),
                           .spacing = static_cast<float>(samples.spacing)};
-        taken.clear(name, samples.positions, pitch, result.notes);
+        taken.clear(filled.name, samples.positions, pitch, result.notes);
         if (samples.positions.empty()) {
             throw input_error("{}: {}, so nothing is left of it", scene.name, result.notes.back());
         }
         if (result.particles.size() + samples.positions.size() > limit) {
             throw_too_many(scene, static_cast<double>(result.particles.size() + samples.positions.size()), limit);
         }
-        if (f + 1 < scene.fluids.size()) {
-            taken.add(name, samples.positions, pitch);
+        if (b + 1 < bodies.size()) {
+            taken.add(filled.name, samples.positions, pitch);
         }
-        add_fluid(result.particles, scene.fluids[f], samples, materials.of_fluid[f]);
+        add_body(result.particles, filled, samples);
+        release.resize(result.particles.size(), std::numeric_limits<float>::infinity());
+        if (filled.solid != nullptr && filled.solid->dissolve.speed > 0.0f) {
+            const std::vector<float> times = arrival_times(filled.solid->dissolve, samples.positions, filled.seed);
+            std::ranges::copy(times, release.end() - static_cast<std::ptrdiff_t>(times.size()));
+        }
     }
     for (std::size_t c = 0; c < colliders.size(); ++c) {
         result.colliders.push_back({.first_id = static_cast<std::uint32_t>(result.particles.size()),
@@ -249,6 +284,10 @@ SceneParticles make_scene_particles(const Scene& any_scene, std::uint64_t limit)
     }
     if (result.particles.size() > limit) {
         throw_too_many(scene, static_cast<double>(result.particles.size()), limit);
+    }
+    if (std::ranges::any_of(release, [](float time) { return std::isfinite(time); })) {
+        release.resize(result.particles.size(), std::numeric_limits<float>::infinity());
+        result.particles.release_time = std::move(release);
     }
     return result;
 }

@@ -32,8 +32,9 @@ std::optional<std::string> coarse_positions(const Scene& scene)
 /// A value that the scene bothers to set and nothing reads.
 std::optional<std::string> idle_viscosity(const Scene& scene)
 {
-    if (scene.physics.viscosity == FluidPhysics{}.viscosity || scene.fluids.empty() ||
-        !std::ranges::all_of(scene.fluids, [](const FluidBody& fluid) { return fluid.viscosity.has_value(); })) {
+    if (scene.physics.viscosity == FluidPhysics{}.viscosity || fluid_bodies(scene).empty() ||
+        !std::ranges::all_of(fluid_bodies(scene),
+                             [](const FluidBody* fluid) { return fluid->viscosity.has_value(); })) {
         return std::nullopt;
     }
     return "physics.viscosity is used by no fluid: each has one of its own, by its key viscosity or its liquid";
@@ -41,11 +42,11 @@ std::optional<std::string> idle_viscosity(const Scene& scene)
 
 std::optional<std::string> idle_tension(const Scene& scene)
 {
-    const bool own = std::ranges::all_of(scene.fluids, [](const FluidBody& fluid) {
-        return fluid.surface_tension.has_value() || find_liquid(fluid.liquid) != nullptr;
+    const bool own = std::ranges::all_of(fluid_bodies(scene), [](const FluidBody* fluid) {
+        return fluid->surface_tension.has_value() || find_liquid(fluid->liquid) != nullptr;
     });
     if (scene.physics.surface_tension == 0.0f || scene.physics.tension_model != TensionModel::Si ||
-        scene.fluids.empty() || !own) {
+        fluid_bodies(scene).empty() || !own) {
         return std::nullopt;
     }
     return "physics.surface_tension is used by no fluid: each has one of its own, by its key surface_tension or its "
@@ -82,7 +83,7 @@ std::optional<std::string> unmeasured_tension(const Scene& scene)
 /// The speed of sound has to suit the speed of the flow, of which nothing is known where gravity pulls on and on.
 std::optional<std::string> endless_fall(const Scene& scene)
 {
-    if (scene.solver != Solver::Wcsph || scene.physics.speed_of_sound || scene.fluids.empty()) {
+    if (scene.solver != Solver::Wcsph || scene.physics.speed_of_sound || fluid_bodies(scene).empty()) {
         return std::nullopt;
     }
     for (int axis = 0; axis < static_cast<int>(scene.domain.dimensions); ++axis) {
@@ -99,7 +100,7 @@ std::optional<std::string> endless_fall(const Scene& scene)
 /// Particles diffuse to where there are fewer: beyond a surface there are none.
 std::optional<std::string> shifted_surface(const Scene& scene, const ParticleSet& particles)
 {
-    if (scene.physics.shifting <= 0.0f || !scene.colliders.empty()) {
+    if (scene.physics.shifting <= 0.0f || !scene.colliders.empty() || !scene.solids.empty()) {
         return std::nullopt;
     }
     const std::vector<Material> materials = scene_materials(scene).materials;

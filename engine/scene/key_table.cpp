@@ -344,15 +344,15 @@ std::vector<Key<Body>> with_shape_keys(std::string_view description, const std::
 }
 
 /// Setting it gives the body the liquid's values.
-FluidKey liquid_key()
+template <class Body>
+Key<Body> liquid_key(std::string_view description)
 {
     std::vector<std::pair<std::string_view, std::string>> words{{"custom", "custom"}};
     for (const Liquid& liquid : liquids()) {
         words.emplace_back(liquid.name, liquid.name);
     }
-    FluidKey result = choice<FluidBody>("liquid", FIELD(liquid), words,
-        "what it is: gives rest_density, viscosity, surface_tension and color the values below, unless they stand in the scene; custom: nothing");
-    result.set = [set = result.set](FluidBody& body, const SceneValue& value) {
+    Key<Body> result = choice<Body>("liquid", FIELD(liquid), words, description);
+    result.set = [set = result.set](Body& body, const SceneValue& value) {
         const Liquid* liquid = find_liquid(std::get<std::string>(value.data));
         if (liquid != nullptr) {
             set_liquid(body, *liquid);
@@ -367,7 +367,7 @@ std::vector<FluidKey> make_fluid_keys()
 {
     const auto k = [](auto... arguments) { return key<FluidBody>(arguments...); };
     return with_shape_keys<FluidBody>("where the fluid starts; each shape has keys of its own", {
-        liquid_key(),
+        liquid_key<FluidBody>("what it is: gives rest_density, viscosity, surface_tension and color the values below, unless they stand in the scene; custom: nothing"),
         choice<FluidBody>("lattice", FIELD(lattice), {{"cubic", FluidLattice::Cubic}, {"blue-noise", FluidLattice::BlueNoise}}, "how its particles lie at the start: in rows, or evenly without any, relaxed until the density varies by 1 %"),
         k("rest_density", FIELD(rest_density), "kg/m^3", Range{1e-3, 1e5}, "density without pressure"),
         k("viscosity", FIELD(viscosity), "Pa s", Range{0, 1e4}, "dynamic; auto: physics.viscosity. Between two fluids the harmonic mean is at work"),
@@ -377,6 +377,27 @@ std::vector<FluidKey> make_fluid_keys()
         k("spin", FIELD(spin), "rad/s", SPEED, "spin x (position - spin_center) adds to the velocity"),
         k("spin_center", FIELD(spin_center), "m", PLACE, "what it spins about; auto: the body's center"),
         k("color", FIELD(color), "linear RGB", UNIT, "in render.color = \"material\""),
+    });
+}
+
+std::vector<SolidKey> make_solid_keys()
+{
+    const auto k = [](auto... arguments) { return key<SolidBody>(arguments...); };
+    return with_shape_keys<SolidBody>("what it is; each shape has keys of its own", {
+        liquid_key<SolidBody>("what it turns into: gives rest_density, viscosity, surface_tension and fluid_color the values of a liquid, unless they stand in the scene; custom: nothing"),
+        k("rest_density", FIELD(rest_density), "kg/m^3", Range{1e-3, 1e5}, "density, solid and fluid"),
+        k("viscosity", FIELD(viscosity), "Pa s", Range{0, 1e4}, "dynamic, of the fluid; auto: physics.viscosity"),
+        k("surface_tension", FIELD(surface_tension), "N/m", Range{0, 1e4}, "of the fluid, as of a [[fluid]]"),
+        k("friction", FIELD(friction), "Pa s", Range{0, 1e4}, "viscosity of fluid against the solid; 0 lets it slip freely"),
+        k("contact_angle", FIELD(contact_angle), "degrees", Range{0, 180}, "of fluid with surface tension at the solid, inside the fluid"),
+        k("dissolve_speed", FIELD(dissolve.speed), "m/s", Range{0, 1e4}, "of a front that runs through the solid and turns it into fluid; 0: it stays solid"),
+        k("dissolve_start", FIELD(dissolve.start), "s", Range{0, 1e6}, "when the front enters"),
+        k("dissolve_direction", FIELD(dissolve.direction), "", PLACE, "which way the front runs, from the solid's first particle on; of any length but 0; auto: downward"),
+        k("dissolve_point", FIELD(dissolve.point), "m", PLACE, "where the front spreads from instead, as a sphere that first touches the solid at dissolve_start; auto: it runs along dissolve_direction"),
+        k("dissolve_roughness", FIELD(dissolve.roughness), "m", Range{0, 1e4}, "how far noise puts the front forward or back"),
+        k("dissolve_grain", FIELD(dissolve.grain), "m", Range{1e-5, 1e4}, "size of that noise's coarsest lumps; the finest are an eighth of it"),
+        k("color", FIELD(solid_color), "linear RGB", UNIT, "of the solid, in render.color = \"material\"; gray in the other modes"),
+        k("fluid_color", FIELD(color), "linear RGB", UNIT, "of the fluid"),
     });
 }
 
@@ -419,6 +440,12 @@ std::span<const SceneKey> scene_keys()
 std::span<const FluidKey> fluid_keys()
 {
     static const std::vector<FluidKey> keys = make_fluid_keys();
+    return keys;
+}
+
+std::span<const SolidKey> solid_keys()
+{
+    static const std::vector<SolidKey> keys = make_solid_keys();
     return keys;
 }
 

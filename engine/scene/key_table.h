@@ -17,7 +17,7 @@ namespace meltpoint {
 template <class Owner>
 struct Key {
     std::string_view
-        name; ///< "physics.viscosity"; of a body ([[fluid]], [[collider]], [[surface]]) without the prefix: "velocity"
+        name; ///< "physics.viscosity"; of a body ([[fluid]], [[solid]] and so on) without the prefix: "velocity"
     std::string_view shape; ///< of a body: the one shape that has this key, empty for all
     bool required = false;  ///< has no default
     std::string_view unit;  ///< empty when there is none
@@ -29,6 +29,7 @@ struct Key {
 
 using SceneKey = Key<Scene>;
 using FluidKey = Key<FluidBody>;
+using SolidKey = Key<SolidBody>;
 using ColliderKey = Key<ColliderBody>;
 using SurfaceKey = Key<SurfaceBody>;
 
@@ -36,6 +37,7 @@ using SurfaceKey = Key<SurfaceBody>;
 /// body that has it.
 std::span<const SceneKey> scene_keys();
 std::span<const FluidKey> fluid_keys();
+std::span<const SolidKey> solid_keys();
 std::span<const ColliderKey> collider_keys();
 std::span<const SurfaceKey> surface_keys();
 
@@ -62,6 +64,7 @@ template <class AnyScene, class Visit>
 void for_each_body_list(AnyScene& scene, const Visit& visit)
 {
     visit(std::string_view("fluid"), scene.fluids, fluid_keys());
+    visit(std::string_view("solid"), scene.solids, solid_keys());
     visit(std::string_view("collider"), scene.colliders, collider_keys());
     visit(std::string_view("surface"), scene.surfaces, surface_keys());
 }

@@ -11,14 +11,15 @@
 
 namespace meltpoint {
 
-/// What the particles of a fluid or a collider share: an entry of the device's material table.
+/// What the particles of a fluid, a solid or a collider share: an entry of the device's material table.
 struct Material {
-    float rest_density = 0.0f;  ///< kg/m^3; 0 for colliders, which have no mass
-    glm::vec3 color{0.0f};      ///< linear RGB
-    float friction = 0.0f;      ///< Pa s, of fluid against a collider
-    float viscosity = 0.0f;     ///< Pa s, of fluids
-    float tension = 0.0f;       ///< N/m, of fluids
-    float contact_angle = 0.0f; ///< degrees, of fluid at a collider
+    float rest_density = 0.0f;   ///< kg/m^3; 0 for colliders, which have no mass
+    glm::vec3 color{0.0f};       ///< linear RGB
+    float friction = 0.0f;       ///< Pa s, of fluid against a collider
+    float viscosity = 0.0f;      ///< Pa s, of fluids
+    float tension = 0.0f;        ///< N/m, of fluids
+    float contact_angle = 0.0f;  ///< degrees, of fluid at a collider or solid
+    glm::vec3 solid_color{0.0f}; ///< linear RGB, of solids
 
     bool operator==(const Material&) const = default;
 };
@@ -26,6 +27,7 @@ struct Material {
 struct SceneMaterials {
     std::vector<Material> materials;        ///< distinct, in order of first use
     std::vector<std::uint32_t> of_fluid;    ///< for each Scene::fluids, its index into materials
+    std::vector<std::uint32_t> of_solid;    ///< likewise for Scene::solids
     std::vector<std::uint32_t> of_collider; ///< likewise for Scene::colliders
 };
 
@@ -47,7 +49,7 @@ inline float tension_of(const Scene& scene, const FluidBody& body)
 }
 
 /// Fluids of equal rest density, viscosity, tension and color are one material, and so are colliders of equal color,
-/// friction and contact angle.
+/// friction and contact angle, and solids that are equal in all of these. A solid keeps its material as a fluid.
 inline SceneMaterials scene_materials(const Scene& scene)
 {
     SceneMaterials result;
@@ -59,11 +61,21 @@ inline SceneMaterials scene_materials(const Scene& scene)
         }
         return index;
     };
+    const auto fluid_material = [&](const FluidBody& body) {
+        return Material{.rest_density = body.rest_density,
+                        .color = body.color,
+                        .viscosity = body.viscosity.value_or(scene.physics.viscosity),
+                        .tension = tension_of(scene, body)};
+    };
     for (const FluidBody& body : scene.fluids) {
-        result.of_fluid.push_back(index_of({.rest_density = body.rest_density,
-                                            .color = body.color,
-                                            .viscosity = body.viscosity.value_or(scene.physics.viscosity),
-                                            .tension = tension_of(scene, body)}));
+        result.of_fluid.push_back(index_of(fluid_material(body)));
+    }
+    for (const SolidBody& body : scene.solids) {
+        Material material = fluid_material(body);
+        material.friction = body.friction;
+        material.contact_angle = body.contact_angle;
+        material.solid_color = body.solid_color;
+        result.of_solid.push_back(index_of(material));
     }
     for (const ColliderBody& body : scene.colliders) {
         result.of_collider.push_back(

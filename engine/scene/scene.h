@@ -120,6 +120,26 @@ struct FluidBody {
     glm::vec3 color{0.16f, 0.45f, 0.78f}; ///< linear RGB of the material color mode
 };
 
+/// A front that runs through a solid and turns it into fluid, along a direction or from a point. It reaches a particle
+/// at start + (depth + roughness noise) / speed, depth being the way from where it enters the solid.
+struct DissolveFront {
+    float speed = 0.0f;                 ///< m/s; 0: there is none
+    float start = 0.0f;                 ///< s
+    std::optional<glm::vec3> direction; ///< of any length but 0; auto: downward
+    std::optional<glm::vec3> point;     ///< m, where it spreads from; auto: it runs along the direction
+    float roughness = 0.0f;             ///< m, how far its noise puts it forward or back
+    float grain = 0.1f;                 ///< m, size of the coarsest unevenness
+};
+
+/// A solid that stands still and may turn into fluid. What FluidBody says is of that fluid; its velocities are not
+/// used.
+struct SolidBody : FluidBody {
+    float friction = 0.0f;                      ///< of fluid against it, Pa s; 0 is free slip
+    float contact_angle = 90.0f;                ///< degrees, of fluid with tension at it
+    glm::vec3 solid_color{0.72f, 0.55f, 0.38f}; ///< linear RGB, while it is solid
+    DissolveFront dissolve;
+};
+
 /// A solid that does not move. Fluid meets boundary particles on its surface (Akinci et al. 2012).
 struct ColliderBody {
     BodyShape shape;
@@ -181,10 +201,24 @@ struct Scene {
     PbfSettings pbf;
     TimeSettings time;
     std::vector<FluidBody> fluids;
+    std::vector<SolidBody> solids;
     std::vector<ColliderBody> colliders;
     std::vector<SurfaceBody> surfaces;
     CameraSettings camera;
     RenderSettings render;
 };
+
+/// All bodies that are fluid or may turn into it: the fluids, then the solids.
+[[nodiscard]] inline std::vector<const FluidBody*> fluid_bodies(const Scene& scene)
+{
+    std::vector<const FluidBody*> bodies;
+    for (const FluidBody& body : scene.fluids) {
+        bodies.push_back(&body);
+    }
+    for (const SolidBody& body : scene.solids) {
+        bodies.push_back(&body);
+    }
+    return bodies;
+}
 
 } // namespace meltpoint

@@ -234,12 +234,13 @@ private:
     /// The values of named liquids, before those that stand in the scene.
     void set_liquids()
     {
-        const FluidKey& key = *find_key(fluid_keys(), "liquid");
-        for (std::size_t i = 0; i < scene_.fluids.size(); ++i) {
-            if (const TomlEntry* entry = find(fmt::format("fluid.{}.liquid", i))) {
-                set_value(key, scene_.fluids[i], *entry);
+        for_each_body([&](const std::string& path, auto& body, const auto& keys) {
+            const auto* key = find_key(keys, "liquid");
+            const TomlEntry* entry = find(path + ".liquid");
+            if (key != nullptr && entry != nullptr) {
+                set_value(*key, body, *entry);
             }
-        }
+        });
     }
 
     template <class Owner>

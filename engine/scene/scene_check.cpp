@@ -190,15 +190,41 @@ private:
 
     void check_fluids() const
     {
-        if (scene_.fluids.empty() && scene_.surfaces.empty()) {
-            fail("fluid", "is missing: a scene has at least one [[fluid]] or [[surface]]");
+        if (scene_.fluids.empty() && scene_.solids.empty() && scene_.surfaces.empty()) {
+            fail("fluid", "is missing: a scene has at least one [[fluid]], [[solid]] or [[surface]]");
         }
-        if (scene_.fluids.size() > MOST_BODIES) {
-            fail("fluid", "is there {} times, but a scene has at most {} fluids", scene_.fluids.size(), MOST_BODIES);
+        check_filled("fluid", scene_.fluids);
+        check_filled("solid", scene_.solids);
+        for (std::size_t i = 0; i < scene_.solids.size(); ++i) {
+            check_front(fmt::format("solid.{}.", i), scene_.solids[i].dissolve);
         }
-        for (std::size_t i = 0; i < scene_.fluids.size(); ++i) {
-            const std::string prefix = fmt::format("fluid.{}.", i);
-            std::visit([&](const auto& shape) { check_shape(prefix, shape); }, scene_.fluids[i].shape);
+    }
+
+    /// Bodies that are filled with particles.
+    template <class Body>
+    void check_filled(std::string_view name, const std::vector<Body>& bodies) const
+    {
+        if (bodies.size() > MOST_BODIES) {
+            fail(name, "is there {} times, but a scene has at most {} {}s", bodies.size(), MOST_BODIES, name);
+        }
+        for (std::size_t i = 0; i < bodies.size(); ++i) {
+            const std::string prefix = fmt::format("{}.{}.", name, i);
+            std::visit([&](const auto& shape) { check_shape(prefix, shape); }, bodies[i].shape);
+        }
+    }
+
+    void check_front(const std::string& prefix, const DissolveFront& front) const
+    {
+        if (front.direction && *front.direction == glm::vec3(0.0f)) {
+            fail(prefix + "dissolve_direction", "is {}, but must have a length", text(*front.direction));
+        }
+        if (front.direction && front.point) {
+            fail(prefix + "dissolve_direction",
+                 "is there beside {}dissolve_point, but a front runs along one or spreads from the other", prefix);
+        }
+        if (is_flat() && front.direction && front.direction->z != 0.0f) {
+            fail(prefix + "dissolve_direction", "is {}, but must have no z where domain.dimensions is 2",
+                 text(*front.direction));
         }
     }
 
@@ -248,6 +274,9 @@ private:
                 fail(prefix + "spin", "is {}, but must be about z alone {}", text(fluid.spin), flat);
             }
         }
+        for (std::size_t i = 0; i < scene_.solids.size(); ++i) {
+            check_plane_shape(fmt::format("solid.{}.", i), scene_.solids[i].shape);
+        }
         for (std::size_t i = 0; i < scene_.colliders.size(); ++i) {
             check_plane_shape(fmt::format("collider.{}.", i), scene_.colliders[i].shape);
         }
@@ -268,11 +297,14 @@ private:
         }
         const auto fluid = std::ranges::find(materials.of_fluid, shared::MAX_MATERIALS);
         const auto collider = std::ranges::find(materials.of_collider, shared::MAX_MATERIALS);
-        const std::string first_beyond = fluid != materials.of_fluid.end()
-                                             ? fmt::format("fluid.{}", fluid - materials.of_fluid.begin())
-                                             : fmt::format("collider.{}", collider - materials.of_collider.begin());
+        const auto solid = std::ranges::find(materials.of_solid, shared::MAX_MATERIALS);
+        const std::string first_beyond =
+            fluid != materials.of_fluid.end()   ? fmt::format("fluid.{}", fluid - materials.of_fluid.begin())
+            : solid != materials.of_solid.end() ? fmt::format("solid.{}", solid - materials.of_solid.begin())
+                                                : fmt::format("collider.{}", collider - materials.of_collider.begin());
         fail(first_beyond,
-             "makes {} different materials (fluids by rest density and color, colliders by friction and color), but a "
+             "makes {} different materials (fluids by rest density and color, colliders by friction and color, solids "
+             "by both), but a "
              "scene has at most {}",
              materials.materials.size(), shared::MAX_MATERIALS);
     }
@@ -297,7 +329,7 @@ private:
     {
         const float thinnest = std::min({extent.x, extent.y, extent.z});
         if (thinnest < scene_.particles.spacing * (1.0f - ROUNDING)) {
-            fail(key, "makes the fluid {} m thin, but it must be at least particles.spacing = {} m to hold a particle",
+            fail(key, "makes the body {} m thin, but it must be at least particles.spacing = {} m to hold a particle",
                  thinnest, scene_.particles.spacing);
         }
     }
@@ -310,7 +342,7 @@ private:
         const glm::bvec3 below = glm::lessThan(min, domain.min - slack);
         const glm::bvec3 above = glm::greaterThan(max, domain.max + slack);
         if (glm::any(below && matters) || glm::any(above && matters)) {
-            fail(key, "puts the fluid in {} to {}, but it must lie inside the domain, {} to {}", text(min), text(max),
+            fail(key, "puts the body in {} to {}, but it must lie inside the domain, {} to {}", text(min), text(max),
                  text(domain.min), text(domain.max));
         }
     }

@@ -83,6 +83,13 @@ std::string_view about(std::string_view list)
         return "Once for each body of fluid. Where fluids overlap, the first one in the file keeps its place. Here the "
                "keys of every fluid; then those of its shape.";
     }
+    if (list == "solid") {
+        return "Once for each solid that may turn into fluid, if any. It stands still and is filled with particles as "
+               "a "
+               "fluid is, at the scene's spacing; whatever frees them, they keep their mass. Where bodies overlap, "
+               "fluids come first, then solids in the order of the file. Here the keys of every solid; then those of "
+               "its shape.";
+    }
     if (list == "collider") {
         return "Once for each solid that stands in the fluid's way, if any. What of it lies outside the domain is cut "
                "off. A block that is flat along one axis is a plate. A mesh may also be a scan: a file of points "

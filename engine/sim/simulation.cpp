@@ -108,11 +108,11 @@ Simulation::Simulation(const gpu::Context& context, const ParticleSet& particles
     if (settings.options.capillarity) {
         capillarity_.emplace(context, settings.options, params_.pool_count);
     }
-    if (!settings.release_time.empty()) {
-        if (settings.release_time.size() != particles.size() || !options_.still) {
+    if (!particles.release_time.empty()) {
+        if (particles.release_time.size() != particles.size() || !options_.still) {
             throw std::logic_error("Simulation: release times are for each particle, and for still ones");
         }
-        erosion_.emplace(context, settings.release_time);
+        erosion_.emplace(context, particles.release_time);
         erosion_commands_ = std::make_unique<gpu::Commands>(context);
     }
     solver_->record_start(*commands_, fluid());

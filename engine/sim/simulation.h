@@ -22,7 +22,6 @@ namespace meltpoint::sim {
 struct SimulationSettings {
     shared::SphParams params{}; ///< moving_count, pool_count and grid_size are filled in
     FluidOptions options;
-    std::vector<float> release_time; ///< s, by id: when solid particles turn into fluid; empty: none does
 };
 
 /// The params with the numbers of particles and the grid size filled in: all of them move.

@@ -42,8 +42,9 @@ float in_range(float value) { return (value - params.color_range.x) / (params.co
 vec3 particle_color(uint particle)
 {
     uint material = min(particle_material(attributes[particle]), MAX_MATERIALS - 1u);
+    vec3 color = particle_state(attributes[particle]) == STATE_SOLID ? params.solid_color[material] : params.material_color[material];
     if (params.color_mode != COLOR_MATERIAL && is_boundary(attributes[particle])) { // it has none of these quantities
-        return vec3(dot(params.material_color[material], LUMINANCE));
+        return vec3(dot(color, LUMINANCE));
     }
     switch (params.color_mode) {
     case COLOR_DENSITY:
@@ -54,7 +55,7 @@ vec3 particle_color(uint particle)
     case COLOR_PRESSURE:
         return colormap(in_range(pressure[particle]));
     }
-    return params.material_color[material];
+    return color;
 }
 
 Gloss particle_gloss(uint particle)

@@ -61,6 +61,7 @@ struct RenderParams {
     uint samples;         // samples of the visibility image along a pixel's side
     vec3 line_color;
     vec3 material_color[MAX_MATERIALS];
+    vec3 solid_color[MAX_MATERIALS]; // of it as a solid
     float rest_density[MAX_MATERIALS]; // kg/m^3
 };
 

@@ -54,6 +54,21 @@ TEST_F(FrameTest, AnEmptyFrameIsBackground)
     }
 }
 
+TEST_F(FrameTest, SolidsHaveColorsOfTheirOwn)
+{
+    render::FrameSettings settings = close_up();
+    settings.solid_color[1] = {0.2f, 0.6f, 0.4f};
+    TestParticles particles;
+    particles.add({}, 1);
+    EXPECT_TRUE(close(center_color(settings, particles), settings.material_color[1]));
+    particles.attributes[0] = shared::pack_attributes(shared::STATE_SOLID, 1);
+    EXPECT_TRUE(close(center_color(settings, particles), settings.solid_color[1]));
+    settings.color_mode = shared::COLOR_SPEED; // of which it has none: gray
+    const glm::ivec3 gray = center_color(settings, particles);
+    EXPECT_EQ(gray.r, gray.g);
+    EXPECT_EQ(gray.g, gray.b);
+}
+
 TEST_F(FrameTest, MaterialsHaveTheirColors)
 {
     TestParticles particles;

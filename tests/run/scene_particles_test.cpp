@@ -296,6 +296,57 @@ TEST(SceneParticles, SpinIsAboutTheBodysCenterUnlessTold)
     EXPECT_LT(glm::length(momentum), 1e-3);
 }
 
+TEST(SceneParticles, SolidsAreFilledAndKnowWhenTheirFrontComes)
+{
+    Scene scene = scene_of(block(glm::vec3(-0.5f, 0.0f, -0.5f), glm::vec3(0.0f, 0.5f, 0.5f)));
+    EXPECT_TRUE(make_particles(scene, no_limit).release_time.empty());
+    SolidBody solid;
+    solid.shape = BlockShape{glm::vec3(-0.2f, 0.0f, -0.5f), glm::vec3(0.5f, 0.5f, 0.5f)}; // some of it is taken
+    solid.rest_density = 800.0f;
+    scene.solids.push_back(solid);
+    EXPECT_TRUE(make_particles(scene, no_limit).release_time.empty()); // nothing frees it
+    solid.shape = BlockShape{glm::vec3(-0.5f, 1.0f, -0.5f), glm::vec3(0.5f, 1.5f, 0.5f)};
+    solid.friction = 3.0f;
+    solid.dissolve = {.speed = 0.5f, .start = 1.0f};
+    scene.solids.push_back(solid);
+    ColliderBody ball;
+    ball.shape = SphereShape{glm::vec3(0.0f, 0.75f, 0.0f), 0.1f};
+    scene.colliders.push_back(ball);
+
+    const ParticleSet set = make_particles(scene, no_limit);
+    ASSERT_EQ(set.release_time.size(), set.size());
+    const std::size_t fluids = 5 * 5 * 10;
+    const std::size_t both = fluids + 5 * 5 * 10;
+    ASSERT_GT(set.size(), both + 500);
+    for (std::size_t i = 0; i < set.size(); ++i) {
+        const std::uint32_t state = shared::particle_state(set.attributes[i]);
+        const float volume = 1e-3f;
+        if (i < fluids) {
+            EXPECT_EQ(state, shared::STATE_FLUID);
+            EXPECT_NEAR(set.mass[i], 1000.0f * volume, 1e-4f);
+        } else if (i < both + 500) {
+            EXPECT_EQ(state, shared::STATE_SOLID);
+            EXPECT_NEAR(set.mass[i], 800.0f * volume, 1e-4f);
+            EXPECT_EQ(set.weight[i], 1.0f);
+            EXPECT_EQ(set.velocity[i], glm::vec3(0.0f));
+        } else {
+            EXPECT_EQ(state, shared::STATE_COLLIDER);
+        }
+        if (i >= both && i < both + 500) {
+            EXPECT_NEAR(set.release_time[i], 1.0f + (1.45f - set.position[i].y) / 0.5f, 1e-4f);
+        } else {
+            EXPECT_TRUE(std::isinf(set.release_time[i]));
+        }
+    }
+    const FluidSettings settings = fluid_settings(scene, set);
+    EXPECT_TRUE(settings.simulation.options.still);
+    const std::uint32_t material = shared::particle_material(set.attributes[both]);
+    EXPECT_EQ(settings.simulation.params.rest_density[material], 800.0f);
+    EXPECT_EQ(settings.simulation.params.friction[material], 3.0f);
+    // What is solid yet may fall, too.
+    EXPECT_GT(settings.simulation.params.speed_of_sound, 10.0f * std::sqrt(2.0f * 9.81f * 1.4f));
+}
+
 TEST(SceneParticles, BodiesFollowEachOtherWithTheirMaterials)
 {
     Scene scene = scene_of(block({-1.0f, 0.0f, -1.0f}, {1.0f, 0.2f, 1.0f}));

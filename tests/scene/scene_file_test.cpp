@@ -198,7 +198,8 @@ TEST(SceneFile, NamesContradictions)
               "test.toml:2: key \"render.color_range\" is [2, 2], but its first number must be below its second");
     EXPECT_EQ(error_with_block("[time]\nframe_rate = 100\ndt = 0.02"),
               "test.toml:3: key \"time.dt\" is 0.02 s, but must be at most the time between two frames, 1/100 s");
-    EXPECT_EQ(error_of(""), "test.toml: key \"fluid\" is missing: a scene has at least one [[fluid]] or [[surface]]");
+    EXPECT_EQ(error_of(""),
+              "test.toml: key \"fluid\" is missing: a scene has at least one [[fluid]], [[solid]] or [[surface]]");
 }
 
 TEST(SceneFile, TwoDimensionsMeanNothingByZ)
@@ -280,7 +281,7 @@ TEST(SceneFile, NamesMistakesOfShapes)
     EXPECT_NE(block_with("fluid.0.max=[0.5,0.01,0.5]").find("0.01 m thin, but it must be at least"), std::string::npos);
     EXPECT_EQ(
         block_with("fluid.0.min=[0,-0.5,0]"),
-        "override \"fluid.0.min=[0,-0.5,0]\": key \"fluid.0.min\" puts the fluid in [0, -0.5, 0] to [0.5, 0.5, 0.5], "
+        "override \"fluid.0.min=[0,-0.5,0]\": key \"fluid.0.min\" puts the body in [0, -0.5, 0] to [0.5, 0.5, 0.5], "
         "but it must lie inside the domain, [-1, 0, -1] to [1, 2, 1]");
     EXPECT_NE(error_of("[[fluid]]\nshape='sphere'\ncenter=[0,0.2,0]\nradius=0.21")
                   .find("test.toml:3: key \"fluid.0.center\""),
@@ -344,7 +345,7 @@ TEST(SceneFile, LimitsDistinctFluids)
     EXPECT_EQ(
         error_of(text),
         "test.toml:386: key \"fluid.64\" makes 65 different materials (fluids by rest density and color, colliders by "
-        "friction and color), but a "
+        "friction and color, solids by both), but a "
         "scene has at most 64");
     EXPECT_NO_THROW(parse(text, {"fluid.64.rest_density=1000"}));
 
@@ -432,8 +433,8 @@ TEST(SceneFile, NamesBadOverrides)
     EXPECT_EQ(block_with("name=1\nseed=2"), "override \"name=1\\nseed=2\" has a line break");
     EXPECT_EQ(block_with("domain.max=[1,2").find("override \"domain.max=[1,2\""), 0u);
     EXPECT_EQ(block_with("a.b.c=1"), "override \"a.b.c=1\": key \"a.b.c\" is unknown; there is no table \"a.b\"");
-    EXPECT_EQ(block_with("fluid=[]"),
-              "override \"fluid=[]\": key \"fluid\" is missing: a scene has at least one [[fluid]] or [[surface]]");
+    EXPECT_EQ(block_with("fluid=[]"), "override \"fluid=[]\": key \"fluid\" is missing: a scene has at least one "
+                                      "[[fluid]], [[solid]] or [[surface]]");
     EXPECT_EQ(block_with("fluid.0=3").find("override \"fluid.0=3\": key \"fluid.0\" is unknown"), 0u);
     EXPECT_EQ(block_with("domain.max=[1,0,1]").find("override \"domain.max=[1,0,1]\": key \"domain.max\" is [1, 0, 1]"),
               0u);
@@ -578,6 +579,11 @@ Scene random_scene(std::uint64_t seed)
             }
         }
     });
+    for (std::size_t i = 0; i < scene.solids.size(); ++i) { // a front has one or the other
+        DissolveFront& front = scene.solids[i].dissolve;
+        front.direction = (i + seed) % 2 == 0 ? front.direction : std::nullopt;
+        front.point = (i + seed) % 2 == 0 ? std::nullopt : front.point;
+    }
     return scene;
 }
 
@@ -591,6 +597,7 @@ std::vector<std::string> differences(const Scene& a, const Scene& b)
         }
     }
     EXPECT_EQ(a.fluids.size(), b.fluids.size());
+    EXPECT_EQ(a.solids.size(), b.solids.size());
     EXPECT_EQ(a.colliders.size(), b.colliders.size());
     const auto compare_bodies = [&](std::string_view list, const auto& of_a, const auto& of_b, const auto& keys) {
         for (std::size_t i = 0; i < std::min(of_a.size(), of_b.size()); ++i) {
@@ -602,6 +609,7 @@ std::vector<std::string> differences(const Scene& a, const Scene& b)
         }
     };
     compare_bodies("fluid", a.fluids, b.fluids, fluid_keys());
+    compare_bodies("solid", a.solids, b.solids, solid_keys());
     compare_bodies("collider", a.colliders, b.colliders, collider_keys());
     return names;
 }
@@ -834,6 +842,47 @@ TEST(SceneFile, SurvivesMutations)
     }
     EXPECT_GT(read, 100); // comments absorb some of the edits: both branches were seen
     EXPECT_LT(read, 2900);
+}
+
+constexpr std::string_view SOLID = "[[solid]]\nshape = \"sphere\"\ncenter = [0, 1, 0]\nradius = 0.4\n";
+
+TEST(SceneFile, ASolidHasWhatItTurnsIntoAndAFront)
+{
+    const Scene scene =
+        parse(std::string(SOLID) + "viscosity = 0.1\nliquid = \"oil\"\nfriction = 2\ncolor = [0.1, 0.2, 0.3]\n"
+                                   "dissolve_speed = 0.3\ndissolve_start = 0.5\ndissolve_point = [0, 2, 0]\n");
+    ASSERT_EQ(scene.solids.size(), 1u);
+    const SolidBody& solid = scene.solids[0];
+    EXPECT_EQ(std::get<SphereShape>(solid.shape).radius, 0.4f);
+    EXPECT_EQ(solid.rest_density, 912.0f);
+    EXPECT_EQ(solid.viscosity, 0.1f);
+    EXPECT_EQ(solid.color, find_liquid("oil")->color);
+    EXPECT_EQ(solid.solid_color, glm::vec3(0.1f, 0.2f, 0.3f));
+    EXPECT_EQ(solid.friction, 2.0f);
+    EXPECT_EQ(solid.dissolve.speed, 0.3f);
+    EXPECT_EQ(solid.dissolve.start, 0.5f);
+    EXPECT_EQ(solid.dissolve.point, glm::vec3(0.0f, 2.0f, 0.0f));
+    EXPECT_FALSE(solid.dissolve.direction);
+}
+
+TEST(SceneFile, ContradictionsOfASolidAreNamed)
+{
+    const auto error = [](const std::string& lines) {
+        return error_of(std::string(SOLID) + lines);
+    };
+    EXPECT_EQ(error("dissolve_direction = [0, 0, 0]"),
+              "test.toml:5: key \"solid.0.dissolve_direction\" is [0, 0, 0], but must have a length");
+    EXPECT_NE(error("dissolve_direction = [0, 1, 0]\ndissolve_point = [0, 0, 0]")
+                  .find("key \"solid.0.dissolve_direction\" is there beside solid.0.dissolve_point"),
+              std::string::npos);
+    EXPECT_NE(error("dissolve_speed = -1").find("must be"), std::string::npos);
+    EXPECT_NE(error("velocity = [0, 1, 0]").find("is unknown"), std::string::npos); // it stands still
+    EXPECT_NE(error("radius_ = 1").find("did you mean \"solid.0.radius\"?"), std::string::npos);
+    EXPECT_NE(error_of("[[solid]]\nshape = \"sphere\"\ncenter = [0, 0.1, 0]\nradius = 0.4\n").find("inside the domain"),
+              std::string::npos);
+    EXPECT_NE(error_of("[domain]\ndimensions = 2\n" + std::string(SOLID) + "dissolve_direction = [0, 1, 1]")
+                  .find("must have no z"),
+              std::string::npos);
 }
 
 } // namespace

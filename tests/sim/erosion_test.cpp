@@ -71,13 +71,13 @@ TEST_F(ErosionTest, AFrontFreesWhatItHasReachedAndNothingIsLost)
     for (const std::uint32_t solver : {shared::SOLVER_WCSPH, shared::SOLVER_DFSPH, shared::SOLVER_PBF}) {
         SCOPED_TRACE(solver);
         sim::SimulationSettings its = settings(solver);
-        const ParticleSet start = half_solid();
-        its.release_time = times(start, 10.0 * sim::Erosion::interval * static_cast<double>(its.params.dt));
+        ParticleSet start = half_solid();
+        start.release_time = times(start, 10.0 * sim::Erosion::interval * static_cast<double>(its.params.dt));
         sim::Simulation simulation(context(), start, its);
         reference::State twin = reference::from_particle_set(start);
         std::size_t freed = 0;
         for (int look = 0; look < 10; ++look) {
-            freed += reference::release(twin, its.release_time, simulation.time());
+            freed += reference::release(twin, start.release_time, simulation.time());
             simulation.advance(sim::Erosion::interval);
             const ParticleSet now = simulation.download();
             ASSERT_EQ(now.size(), start.size());
@@ -108,10 +108,10 @@ TEST_F(ErosionTest, WhatIsFreedMovesAsFluidDoes)
         // A set number of iterations, or rounding alone would decide how many there are.
         its.params.density_error = its.params.divergence_error = its.params.viscosity_error = 0.0f;
         its.params.max_iterations = its.params.viscosity_iterations = 5;
-        const ParticleSet start = half_solid();
+        ParticleSet start = half_solid();
         const float second_look = (static_cast<float>(sim::Erosion::interval) - 0.5f) * its.params.dt;
-        its.release_time = times(start, 0.0);
-        for (float& time : its.release_time) { // all that there is to free, half a step before the second look
+        start.release_time = times(start, 0.0);
+        for (float& time : start.release_time) { // all that there is to free, half a step before the second look
             time = time == 0.0f ? second_look : time;
         }
         for (const conformance::PassError& error :
@@ -131,7 +131,7 @@ TEST_F(ErosionTest, FreedParticlesAreNotKicked)
         its.params.artificial_pressure = 0.0f; // which moves particles at any surface
         ParticleSet start = lattice_state({10, 10, 10}, glm::vec3(0.25f));
         std::ranges::fill(start.attributes, shared::pack_attributes(shared::STATE_SOLID, 2));
-        its.release_time = times(start, 20.0 * static_cast<double>(its.params.dt));
+        start.release_time = times(start, 20.0 * static_cast<double>(its.params.dt));
         sim::Simulation simulation(context(), start, its);
         double fastest = 0.0;
         for (int look = 0; look < 10; ++look) {
@@ -150,8 +150,8 @@ TEST_F(ErosionTest, RerunsGiveTheSameBitsInAnyPortions)
     for (const std::uint32_t solver : {shared::SOLVER_WCSPH, shared::SOLVER_DFSPH}) {
         SCOPED_TRACE(solver);
         sim::SimulationSettings its = settings(solver);
-        const ParticleSet start = half_solid();
-        its.release_time = times(start, 80.0 * static_cast<double>(its.params.dt));
+        ParticleSet start = half_solid();
+        start.release_time = times(start, 80.0 * static_cast<double>(its.params.dt));
         sim::Simulation whole(context(), start, its);
         whole.advance(100);
         sim::Simulation portions(context(), start, its);
@@ -179,7 +179,7 @@ TEST_F(ErosionTest, ASimulationMayBeginWithoutAnyFluid)
         its.params.longest_move = 0.5f * its.params.support_radius;
         ParticleSet start = lattice_state({6, 6, 6}, glm::vec3(0.3f));
         std::ranges::fill(start.attributes, shared::pack_attributes(shared::STATE_SOLID, 2));
-        its.release_time.assign(start.size(), 0.05f);
+        start.release_time.assign(start.size(), 0.05f);
         sim::Simulation simulation(context(), start, its);
         simulation.advance_by(0.04);
         EXPECT_EQ(simulation.download().position, start.position);
