@@ -52,6 +52,15 @@ std::optional<std::string> idle_tension(const Scene& scene)
            "liquid";
 }
 
+std::optional<std::string> idle_clamp(const Scene& scene)
+{
+    if (scene.solver != Solver::Dfsph || scene.physics.clamp_pressure) {
+        return std::nullopt;
+    }
+    return "physics.clamp_pressure is off, but does nothing where solver is \"dfsph\", whose pressure is never below "
+           "zero: \"wcsph\" and \"pbf\" heed it";
+}
+
 std::optional<std::string> idle_lid(const Scene& scene)
 {
     if (scene.domain.lid_velocity == glm::vec3(0.0f) || scene.domain.wall_viscosity > 0.0f) {
@@ -161,7 +170,7 @@ std::vector<std::string> scene_warnings(const Scene& scene, const ParticleSet& p
     std::vector<std::string> warnings;
     for (const std::optional<std::string>& warning :
          {coarse_positions(scene), idle_viscosity(scene), idle_tension(scene), unread_tension(scene),
-          idle_contact_angle(scene), unmeasured_tension(scene), idle_lid(scene), endless_fall(scene),
+          idle_contact_angle(scene), unmeasured_tension(scene), idle_clamp(scene), idle_lid(scene), endless_fall(scene),
           shifted_surface(scene, particles)}) {
         if (warning) {
             warnings.push_back(*warning);

@@ -91,6 +91,19 @@ TEST(SceneWarnings, AContactAngleWithoutTension)
         << warning_of(scene);
 }
 
+TEST(SceneWarnings, PressureBelowZeroThatDfsphDoesNotHave)
+{
+    Scene scene = full_square();
+    scene.physics.clamp_pressure = false;
+    for (const auto& [solver, warns] : {std::pair{Solver::Wcsph, false}, {Solver::Dfsph, true}, {Solver::Pbf, false}}) {
+        scene.solver = solver;
+        EXPECT_EQ(warning_of(scene).starts_with("physics.clamp_pressure is off"), warns);
+    }
+    scene.solver = Solver::Dfsph;
+    scene.physics.clamp_pressure = true;
+    EXPECT_EQ(warning_of(scene), "");
+}
+
 TEST(SceneWarnings, ALidWithoutWallViscosity)
 {
     Scene scene = full_square();
