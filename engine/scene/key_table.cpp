@@ -278,7 +278,7 @@ std::vector<SceneKey> make_scene_keys()
         k("physics.speed_of_sound", FIELD(physics.speed_of_sound), "m/s", Range{1e-3, 1e5}, "stiffness of the fluid; auto: 10 times the speed expected of this scene"),
         k("physics.gamma", FIELD(physics.gamma), "", Range{1, 20}, "exponent of the Tait equation"),
         k("physics.background_pressure", FIELD(physics.background_pressure), "Pa", Range{0, 1e9}, "added to every pressure"),
-        flag<Scene>("physics.clamp_pressure", FIELD(physics.clamp_pressure), "no pressure below zero, which would clump particles at a free surface"),
+        flag<Scene>("physics.clamp_pressure", FIELD(physics.clamp_pressure), "no pressure below zero, which would clump particles at a free surface; of dfsph it never is"),
 
         k("solve.density_error", FIELD(solve.density_error), "", Range{1e-6, 0.1}, "mean of rho/rho0 - 1, where positive, at which a step's density solve ends; auto: 0.0005, of pbf, which is soft, 0.01"),
         k("solve.divergence_error", FIELD(solve.divergence_error), "", Range{1e-6, 0.1}, "dfsph: mean relative growth of density in a step, where positive, at which its divergence solve ends"),

@@ -87,6 +87,12 @@ std::string hint(std::string_view path, const Scene& scene)
         }
     }
     std::optional<std::string> meant = nearest_name(leaf_of(path), siblings);
+    if (!meant) { // a word of its name
+        const auto longer = std::ranges::find_if(siblings, [&](const std::string& each) {
+            return fmt::format("_{}_", each).find(fmt::format("_{}_", leaf_of(path))) != std::string::npos;
+        });
+        meant = longer != siblings.end() ? std::optional(*longer) : std::nullopt;
+    }
     if (meant && !table.empty()) {
         meant = fmt::format("{}.{}", table, *meant);
     }

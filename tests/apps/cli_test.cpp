@@ -606,6 +606,20 @@ TEST_F(Cli, CompareAgreesAndPrintsJsonAlone)
     }
 }
 
+/// Where pressure is solved for, the density pass leaves the pressure of the step before, colliders' places included.
+TEST_F(Cli, CompareAgreesWhereFluidUnderPressureMeetsACollider)
+{
+    test::write_bytes(path("pool.toml"), "particles.spacing = 0.05\n"
+                                         "domain = {min = [0, 0, 0], max = [0.4, 0.4, 0.4]}\n"
+                                         "fluid = [{shape = 'block', min = [0, 0, 0], max = [0.4, 0.2, 0.4]}]\n"
+                                         "collider = [{shape = 'sphere', center = [0.2, 0.15, 0.2], radius = 0.1}]\n");
+    for (const char* solver : {"wcsph", "dfsph", "pbf"}) {
+        const Result result =
+            run({"compare", "pool.toml", "--steps", "3", "--set", std::string("solver=") + solver, "--quiet"});
+        EXPECT_EQ(result.exit_code, 0) << solver << "\n" << result.out << result.err;
+    }
+}
+
 TEST_F(Cli, ComparePrintsATable)
 {
     const Result result = run({"compare", "dam_break", "--steps", "0", "--set", "particles.spacing=0.1", "--quiet"});

@@ -39,13 +39,68 @@ TEST(SceneWarnings, TensionAtASupportItIsNotMeasuredFor)
                                                    {2u, 2.0f, true},
                                                    {3u, 3.0f, true},
                                                    {3u, 2.5f, false},
-                                                   {3u, 2.0f, false}}) {
+                                                   {3u, 1.8f, false},
+                                                   {3u, 1.7f, true}}) {
         scene.domain.dimensions = dimensions;
         scene.particles.support_ratio = ratio;
         EXPECT_EQ(warning_of(scene).starts_with("particles.support_ratio is"), warns) << dimensions << ", " << ratio;
     }
     scene.particles.support_ratio = 3.0f;
     scene.fluids[0].surface_tension = 0.0f;
+    EXPECT_EQ(warning_of(scene), "");
+}
+
+TEST(SceneWarnings, TensionThatThePapersModelDoesNotRead)
+{
+    Scene scene = full_square();
+    scene.particles.support_ratio = 2.5f;
+    scene.fluids[0].shape = BlockShape{glm::vec3(0.0f), glm::vec3(0.5f, 1.0f, 1.0f)};
+    scene.fluids.push_back({.shape = BlockShape{glm::vec3(0.5f, 0.0f, 0.0f), glm::vec3(1.0f)}});
+    scene.fluids[1].surface_tension = 0.07f;
+    EXPECT_EQ(warning_of(scene), "");
+    scene.physics.tension_model = TensionModel::Paper;
+    EXPECT_TRUE(warning_of(scene).starts_with("fluid.1.surface_tension does nothing")) << warning_of(scene);
+    scene.physics.surface_tension = 0.07f;
+    EXPECT_TRUE(warning_of(scene).starts_with("fluid.1.surface_tension does nothing")) << warning_of(scene);
+    scene.fluids[1].surface_tension = 0.0f;
+    EXPECT_EQ(warning_of(scene), "");
+}
+
+TEST(SceneWarnings, AContactAngleWithoutTension)
+{
+    Scene scene = full_square();
+    scene.particles.support_ratio = 2.5f;
+    scene.domain.contact_angle = 60.0f;
+    EXPECT_TRUE(warning_of(scene).starts_with("domain.contact_angle does nothing, for no fluid")) << warning_of(scene);
+    scene.domain.contact_angle = 90.0f;
+    EXPECT_EQ(warning_of(scene), "");
+
+    scene.colliders.resize(2, {.shape = BlockShape{glm::vec3(0.4f), glm::vec3(0.6f)}});
+    EXPECT_EQ(warning_of(scene), "");
+    scene.colliders[1].contact_angle = 120.0f;
+    EXPECT_TRUE(warning_of(scene).starts_with("collider.1.contact_angle does nothing, for no fluid"))
+        << warning_of(scene);
+    scene.fluids[0].liquid = "water"; // its drops are finer than these particles
+    EXPECT_TRUE(warning_of(scene).starts_with("collider.1.contact_angle does nothing, for no fluid"))
+        << warning_of(scene);
+    scene.fluids[0].surface_tension = 0.07f;
+    EXPECT_EQ(warning_of(scene), "");
+    scene.fluids[0].surface_tension.reset();
+    scene.physics.tension_model = TensionModel::Paper;
+    EXPECT_NE(warning_of(scene).find("where physics.tension_model is \"paper\""), std::string::npos)
+        << warning_of(scene);
+}
+
+TEST(SceneWarnings, PressureBelowZeroThatDfsphDoesNotHave)
+{
+    Scene scene = full_square();
+    scene.physics.clamp_pressure = false;
+    for (const auto& [solver, warns] : {std::pair{Solver::Wcsph, false}, {Solver::Dfsph, true}, {Solver::Pbf, false}}) {
+        scene.solver = solver;
+        EXPECT_EQ(warning_of(scene).starts_with("physics.clamp_pressure is off"), warns);
+    }
+    scene.solver = Solver::Dfsph;
+    scene.physics.clamp_pressure = true;
     EXPECT_EQ(warning_of(scene), "");
 }
 

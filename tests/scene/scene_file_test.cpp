@@ -134,6 +134,8 @@ TEST(SceneFile, NamesUnknownKeys)
         0u);
     EXPECT_EQ(error_of(std::string(BLOCK) + "radios = 1"),
               "test.toml:6: key \"fluid.0.radios\" is unknown; did you mean \"fluid.0.radius\"?");
+    EXPECT_EQ(error_of(std::string(BLOCK) + "tension = 1"),
+              "test.toml:6: key \"fluid.0.tension\" is unknown; did you mean \"fluid.0.surface_tension\"?");
 }
 
 TEST(SceneFile, NamesWrongTypes)
