@@ -367,13 +367,13 @@ mutation "colliders: their friction is the fluid's viscosity" \
     conformance_tests '*PassConformance.EachForceAlone/OnACollider*'
 mutation "colliders: fluid counts in the space that they take" \
     shaders/sim/boundary_weight.comp \
-    'is_boundary(attributes[range.x]) ? 1.0 : 0.0' \
+    'particle_state(attributes[range.x]) == STATE_COLLIDER ? 1.0 : 0.0' \
     '1.0' \
     conformance_tests '*PassConformance.AllPasses/OnACollider*'
 mutation "colliders: they fall" \
     shaders/sim/kick_drift.comp \
-    'i >= params.particle_count || is_boundary(attributes[i])' \
-    'i >= params.particle_count' \
+    'i >= params.moving_count || is_boundary(attributes[i])' \
+    'i >= params.moving_count' \
     conformance_tests 'Steps.BoundaryParticlesAreNeverAtFault'
 mutation "colliders: a tile with one of them has no density" \
     shaders/include/boundary.glsl \
@@ -775,8 +775,8 @@ mutation "neighbor bits: neighbors of the second chunk are taken from the first"
     conformance_tests '*PassConformance.EachForceAlone/Splash*'
 mutation "neighbor bits: every chunk shares a word with the tile before" \
     shaders/include/neighbor_bits.glsl \
-    '(params.particle_count + TILE - 1u) / TILE : 0u' \
-    '(params.particle_count + TILE - 1u) / TILE - 1u : 0u' \
+    '(params.moving_count + TILE - 1u) / TILE : 0u' \
+    '(params.moving_count + TILE - 1u) / TILE - 1u : 0u' \
     conformance_tests 'NeighborBits.NothingDependsOnHowManyThereIsRoomFor'
 mutation "time step: nothing keeps it from becoming endlessly small" \
     shaders/sim/time_step.comp \
