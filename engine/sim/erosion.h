@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <span>
 
@@ -13,9 +14,13 @@ namespace meltpoint::sim {
 /// some were freed.
 class Erosion {
 public:
-    /// Steps from one look at the solids to the next. Parting the pool costs as much as some steps of a fluid a tenth
-    /// of its size, and nothing that erodes moves far in so many steps.
-    static constexpr std::uint32_t interval = 16;
+    /// Steps from one look at the solids to the next. Parting a pool takes as long as a step of a fluid a fifth of its
+    /// size (measured on a software device): so many keep that below a third of the whole, and none is freed long after
+    /// its time.
+    [[nodiscard]] static std::uint32_t interval(std::uint32_t pool, std::uint32_t moving)
+    {
+        return std::clamp(pool / std::max(moving, 1u), 4u, 32u);
+    }
 
     /// release_time: s since the start, by id, when a front reaches a particle; infinite where none does.
     Erosion(const gpu::Context& context, std::span<const float> release_time);

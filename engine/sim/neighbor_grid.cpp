@@ -96,12 +96,16 @@ void record_partition(gpu::Commands& commands, const FluidKernels& kernels, cons
                          grid.scratch);
     }
     record_reorder(commands, kernels, particles, grid, count);
-    const gpu::Scope scope(commands, "carry");
-    record_gather(commands, kernels, grid.order, particles.acceleration, particles.interaction, {count, 4});
-    std::swap(particles.acceleration, particles.interaction); // that of the next step is yet to come
+    if (particles.moving == 0) {
+        return;
+    }
+    const gpu::Scope scope(commands, "carry"); // of the moving ones: those who were still have nothing of it
+    const std::uint32_t moving = particles.moving;
+    record_gather(commands, kernels, grid.order, particles.acceleration, particles.interaction, {moving, 4});
+    commands.copy(particles.interaction, particles.acceleration, moving * sizeof(glm::vec4));
     for (gpu::Buffer* values : {&particles.density, &particles.pressure}) {
-        record_gather(commands, kernels, grid.order, *values, grid.spare, {count, 1});
-        std::swap(*values, grid.spare);
+        record_gather(commands, kernels, grid.order, *values, grid.spare, {moving, 1});
+        commands.copy(grid.spare, *values, moving * sizeof(float));
     }
 }
 

@@ -135,17 +135,17 @@ void Simulation::erode(double time)
     if (!erosion_ || step_ < next_erosion_) {
         return;
     }
-    next_erosion_ = step_ + Erosion::interval;
     gpu::Commands& commands = *erosion_commands_;
     commands.begin();
     erosion_->record_front(commands, params_buffer_, particles_, static_cast<float>(time));
     commands.submit();
     commands.wait();
+    params_.moving_count += erosion_->freed();
+    particles_.moving = params_.moving_count;
+    next_erosion_ = step_ + Erosion::interval(params_.pool_count, params_.moving_count);
     if (erosion_->freed() == 0) {
         return;
     }
-    params_.moving_count += erosion_->freed();
-    particles_.moving = params_.moving_count;
     commands.begin();
     commands.fill(params_buffer_, params_.moving_count, sizeof(std::uint32_t),
                   offsetof(shared::SphParams, moving_count));

@@ -60,6 +60,10 @@ public:
     /// s since the start.
     [[nodiscard]] double time() const { return seconds_; }
 
+    /// Until the next look at the solids: 0 where it comes before the next step, very many where there are none to look
+    /// at.
+    [[nodiscard]] std::uint32_t steps_until_erosion() const;
+
     /// Particles an invocation.
     [[nodiscard]] std::uint32_t tile() const { return kernels_.tile; }
     /// Device memory of the particles, their grid and the sort.
@@ -118,8 +122,6 @@ private:
     /// Where a look at the solids is due: those that are due to turn into fluid do, and the pool is parted anew. `time`
     /// in s since the start.
     void erode(double time);
-    /// No more steps than until the next look at the solids.
-    [[nodiscard]] std::uint32_t steps_until_erosion() const;
     void check_status(const shared::Status& status) const;
     [[nodiscard]] std::uint32_t steps_a_submission() const;
     [[nodiscard]] Fluid fluid()
