@@ -11,7 +11,6 @@ namespace meltpoint::conformance {
 struct Device {
     const gpu::Context& context;
     shared::SphParams params;
-    bool still; ///< boundary particles are
     sim::FluidKernels kernels;
     ParticleBuffers particles;
     sim::NeighborGrid grid;
@@ -23,7 +22,7 @@ struct Device {
 
     Device(const gpu::Context& device_context, const ParticleSet& set, const sim::SimulationSettings& settings)
         : context(device_context), params(sim::complete_params(settings.params, settings.options, set)),
-          still(settings.options.still), kernels(context, settings.options), particles(make_particle_buffers(context, params.pool_count)),
+          kernels(context, settings.options), particles(make_particle_buffers(context, params.pool_count)),
           grid(context, params.pool_count, params.grid_size, settings.options.still),
           params_buffer(gpu::make_buffer<shared::SphParams>(context, 1, "params")),
           status(gpu::make_buffer<shared::Status>(context, 1, "status")), time(context, params),

@@ -83,7 +83,7 @@ PassError sort_error(Device& device, const ParticleSet& before, const std::strin
 {
     const ParticleSet after = download_unordered(device.context, device.particles);
     const std::uint32_t cells = device.grid.cell_count;
-    const std::uint32_t keys = device.still ? 2 * cells : cells;
+    const std::uint32_t keys = device.grid.still ? 2 * cells + 1 : cells;
     const auto start = gpu::download<std::uint32_t>(device.context, device.grid.cell_start, keys + 1);
 
     PassError result{name, 0.0, 0.0};
@@ -93,7 +93,7 @@ PassError sort_error(Device& device, const ParticleSet& before, const std::strin
         for (std::uint32_t slot = start[key]; slot < start[key + 1]; ++slot) {
             const std::uint32_t id = slot < after.size() ? after.id[slot] : ~0u;
             if (id >= before.size() || seen[id] ||
-                (device.still && shared::is_boundary(after.attributes[slot]) != (key >= cells))) {
+                (device.grid.still && shared::is_still(after.attributes[slot]) != (key >= cells))) {
                 return {name, 1.0, 0.0};
             }
             seen[id] = true;
@@ -101,7 +101,10 @@ PassError sort_error(Device& device, const ParticleSet& before, const std::strin
                 after.position[slot] == before.position[id] && after.mass[slot] == before.mass[id] &&
                 after.velocity[slot] == before.velocity[id] && after.attributes[slot] == before.attributes[id];
             const bool ascending = slot == start[key] || after.id[slot - 1] < id;
-            bool right_cell = cell_of(device.params, after.position[slot]) == cell;
+            bool right_cell =
+                key == 2 * cells
+                    ? shared::particle_state(after.attributes[slot]) == shared::STATE_DEAD
+                    : cell_of(device.params, after.position[slot]) == cell;
             if (!right_cell && near_cell_border(device.params, after.position[slot])) {
                 ++result.excluded;
                 right_cell = true;
@@ -373,7 +376,7 @@ std::vector<PassError> compare_passes(const gpu::Context& context, const Particl
     const reference::Settings twin_settings = reference_settings(device.params, settings);
 
     std::vector<PassError> errors;
-    if (device.still) {
+    if (device.grid.still) {
         errors.push_back(compare_partition(device));
     }
     for (PassError& error : compare_kick_drift(device, twin_settings)) {
@@ -384,7 +387,7 @@ std::vector<PassError> compare_passes(const gpu::Context& context, const Particl
     const reference::Neighbors neighbors = reference::find_neighbors(device.params, twin.position);
     errors.push_back(compare_neighbors(device, twin));
     errors.push_back(compare_boundary_weight(device, twin_settings, twin, neighbors));
-    if (device.still) {
+    if (device.grid.still) {
         errors.push_back(compare_settle(device, twin_settings, twin));
     }
     for (PassError& error : compare_density(device, twin_settings, twin, neighbors)) {
@@ -452,7 +455,7 @@ std::vector<PassError> compare_steps(const gpu::Context& context, const Particle
         if (!particles.release_time.empty() && i == next_look) {
             (void)reference::release(twin, particles.release_time, i * static_cast<double>(settings.params.dt));
             const auto moving = std::ranges::count_if(
-                twin.attributes, [](std::uint32_t attributes) { return !shared::is_boundary(attributes); });
+                twin.attributes, [](std::uint32_t attributes) { return !shared::is_still(attributes); });
             next_look =
                 i + sim::Erosion::interval(static_cast<std::uint32_t>(twin.size()), static_cast<std::uint32_t>(moving));
         }

@@ -8,7 +8,10 @@ std::size_t release(State& state, std::span<const float> release_time, double ti
     for (std::size_t i = 0; i < state.size(); ++i) {
         if (shared::particle_state(state.attributes[i]) == shared::STATE_SOLID &&
             time >= static_cast<double>(release_time[state.id[i]])) {
-            state.attributes[i] = shared::with_state(state.attributes[i], shared::STATE_FLUID);
+            const bool crumbles = (state.attributes[i] & shared::FLAG_CRUMBLES) != 0;
+            state.attributes[i] =
+                shared::with_state(state.attributes[i], crumbles ? shared::STATE_DUST : shared::STATE_FLUID);
+            state.weight[i] = crumbles ? 0.0 : state.weight[i];
             ++freed;
         }
     }

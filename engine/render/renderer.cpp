@@ -105,7 +105,7 @@ void Renderer::draw(gpu::Commands& commands, const Frame& frame)
             draws.push_back({&sphere,
                              spheres * vertices_per_quad,
                              gpu::push_bytes(push),
-                             {frame.particles->position, frame.particles->attributes}});
+                             {frame.particles->position, frame.particles->attributes, frame.particles->density}});
         }
         if (discs > 0) {
             draws.push_back({&disc,

@@ -11,6 +11,7 @@
 
 #include "core/error.h"
 #include "particles/sph_kernel.h"
+#include "run/dust_params.h"
 #include "run/plane_scene.h"
 #include "run/scene_warnings.h"
 #include "scene/materials.h"
@@ -349,6 +350,9 @@ FluidSettings fluid_settings(const Scene& any_scene, const ParticleSet& particle
     options.kernel = scene.kernel == SphKernel::Wendland ? shared::KERNEL_WENDLAND : shared::KERNEL_PAPER;
     options.mixed_viscosity = differ_in_viscosity(scene);
     options.tension = params.surface_tension > 0.0f;
+    if (std::ranges::any_of(scene.solids, [](const SolidBody& solid) { return solid.becomes == SolidBecomes::Dust; })) {
+        settings.simulation.dust = dust_params(scene);
+    }
     options.still = std::ranges::any_of(particles.attributes, shared::is_boundary);
     options.colliders = options.capillarity && options.still;
     options.xsph = params.xsph > 0.0f;

@@ -191,7 +191,11 @@ float least_distance(const FluidBody& body, const VolumeSamples& samples, double
 void add_body(ParticleSet& particles, const FilledBody& filled, const VolumeSamples& samples)
 {
     const FluidBody& body = filled.body;
-    const std::uint32_t state = filled.solid != nullptr ? shared::STATE_SOLID : shared::STATE_FLUID;
+    std::uint32_t attributes =
+        shared::pack_attributes(filled.solid != nullptr ? shared::STATE_SOLID : shared::STATE_FLUID, filled.material);
+    if (filled.solid != nullptr && filled.solid->becomes == SolidBecomes::Dust) {
+        attributes |= shared::FLAG_CRUMBLES;
+    }
     const std::size_t first = particles.size();
     particles.resize(first + samples.positions.size());
     glm::dvec3 center(0.0);
@@ -205,7 +209,7 @@ void add_body(ParticleSet& particles, const FilledBody& filled, const VolumeSamp
         particles.velocity[first + i] =
             body.velocity + body.velocity_gradient * x + glm::cross(body.spin, x - spin_center);
         particles.mass[first + i] = static_cast<float>(double{body.rest_density} * samples.particle_volume);
-        particles.attributes[first + i] = shared::pack_attributes(state, filled.material);
+        particles.attributes[first + i] = attributes;
     }
 }
 

@@ -292,6 +292,12 @@ std::vector<SceneKey> make_scene_keys()
         k("pbf.artificial_pressure", FIELD(pbf.artificial_pressure), "", Range{0, 10}, "keeps pairs of particles apart: at 0.4 spacings like a density too high by this part"),
         k("pbf.speed_cap", FIELD(pbf.speed_cap), "spacings", Range{0.05, 1}, "the farthest that a particle may move in a step; automatic steps are so short that 0.8 of it suffices, then what is faster is slowed down, and reported"),
 
+        k("dust.wind", FIELD(dust.wind), "m/s", SPEED, "of the air that dust drifts with, once solids crumble"),
+        k("dust.turbulence", FIELD(dust.turbulence), "m/s", Range{0, 1e3}, "root mean square velocity of its eddies, which the wind carries along"),
+        k("dust.eddy_size", FIELD(dust.eddy_size), "m", Range{1e-4, 1e4}, "wavelength of the largest of them; the finest have a quarter of it"),
+        k("dust.response_time", FIELD(dust.response_time), "s", Range{1e-4, 1e4}, "in which dust takes on most of the air's velocity: short for fine dust"),
+        k("dust.life", FIELD(dust.life), "s", Range{1e-3, 1e6}, "in which dust shrinks to nothing; it is also gone where it leaves the domain"),
+
         k("time.dt", FIELD(time.dt), "s", Range{1e-9, 1}, "step; auto: as long as stability allows, chosen anew for every step, the last of a frame ending at its time"),
         k("time.frame_rate", FIELD(time.frame_rate), "1/s", Range{1e-2, 1e6}, "frames in a second of simulated time"),
         k("time.frames", FIELD(time.frames), "", Range{1, 1e6}, "number of frames, frame 0 (the initial state) included"),
@@ -390,7 +396,8 @@ std::vector<SolidKey> make_solid_keys()
         k("surface_tension", FIELD(surface_tension), "N/m", Range{0, 1e4}, "of the fluid, as of a [[fluid]]"),
         k("friction", FIELD(friction), "Pa s", Range{0, 1e4}, "viscosity of fluid against the solid; 0 lets it slip freely"),
         k("contact_angle", FIELD(contact_angle), "degrees", Range{0, 180}, "of fluid with surface tension at the solid, inside the fluid"),
-        k("dissolve_speed", FIELD(dissolve.speed), "m/s", Range{0, 1e4}, "of a front that runs through the solid and turns it into fluid; 0: it stays solid"),
+        choice<SolidBody>("becomes", FIELD(becomes), {{"fluid", SolidBecomes::Fluid}, {"dust", SolidBecomes::Dust}}, "what it is freed as: fluid, or dust that drifts with the air of [dust]"),
+        k("dissolve_speed", FIELD(dissolve.speed), "m/s", Range{0, 1e4}, "of a front that runs through the solid and frees it; 0: it stays solid"),
         k("dissolve_start", FIELD(dissolve.start), "s", Range{0, 1e6}, "when the front enters"),
         k("dissolve_direction", FIELD(dissolve.direction), "", PLACE, "which way the front runs, from the solid's first particle on; of any length but 0; auto: downward"),
         k("dissolve_point", FIELD(dissolve.point), "m", PLACE, "where the front spreads from instead, as a sphere that first touches the solid at dissolve_start; auto: it runs along dissolve_direction"),

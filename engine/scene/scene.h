@@ -131,13 +131,25 @@ struct DissolveFront {
     float grain = 0.1f;                 ///< m, size of the coarsest unevenness
 };
 
-/// A solid that stands still and may turn into fluid. What FluidBody says is of that fluid; its velocities are not
+enum class SolidBecomes { Fluid, Dust };
+
+/// A solid that stands still and may turn into fluid, or crumble into dust. What FluidBody says is of that fluid; its velocities are not
 /// used.
 struct SolidBody : FluidBody {
     float friction = 0.0f;                      ///< of fluid against it, Pa s; 0 is free slip
     float contact_angle = 90.0f;                ///< degrees, of fluid with tension at it
     glm::vec3 solid_color{0.72f, 0.55f, 0.38f}; ///< linear RGB, while it is solid
+    SolidBecomes becomes = SolidBecomes::Fluid;
     DissolveFront dissolve;
+};
+
+/// The air that dust drifts with, and how it does.
+struct DustSettings {
+    glm::vec3 wind{0.4f, 0.25f, 0.0f}; ///< m/s
+    float turbulence = 0.4f;           ///< m/s, root mean square of the eddies' velocity
+    float eddy_size = 0.6f;            ///< m, wavelength of the largest
+    float response_time = 0.15f;       ///< s, in which dust takes on the air's velocity
+    float life = 2.0f;                 ///< s, in which it shrinks to nothing
 };
 
 /// A solid that does not move. Fluid meets boundary particles on its surface (Akinci et al. 2012).
@@ -199,6 +211,7 @@ struct Scene {
     FluidPhysics physics;
     SolveSettings solve;
     PbfSettings pbf;
+    DustSettings dust;
     TimeSettings time;
     std::vector<FluidBody> fluids;
     std::vector<SolidBody> solids;

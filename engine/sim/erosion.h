@@ -6,12 +6,13 @@
 
 #include "gpu/commands.h"
 #include "particle_buffers/particle_buffers.h"
+#include "shared/pool_changes.h"
 #include "sim/fluid_kernels.h"
 
 namespace meltpoint::sim {
 
-/// What turns solid particles into fluid. They are among the still particles; the simulation parts the pool anew after
-/// some were freed.
+/// What turns solid particles into fluid or dust. They are among the still particles; the simulation parts the pool
+/// anew after some were freed.
 class Erosion {
 public:
     /// Steps from one look at the solids to the next. Parting a pool takes as long as a step of a fluid a fifth of its
@@ -25,18 +26,23 @@ public:
     /// release_time: s since the start, by id, when a front reaches a particle; infinite where none does.
     Erosion(const gpu::Context& context, std::span<const float> release_time);
 
-    /// Frees the solid particles that a front has reached at `time` seconds. They lie among the still ones yet.
-    void record_front(gpu::Commands& commands, const gpu::Buffer& params, const ParticleBuffers& particles,
-                      float time) const;
-    /// How many particles the last record_front has freed: after its commands are done.
-    [[nodiscard]] std::uint32_t freed() const;
+    /// Frees the solid particles that a front has reached at `time` seconds: they lie among the still ones yet. And
+    /// counts the dead, which lie among the moving ones yet.
+    void record_look(gpu::Commands& commands, const gpu::Buffer& params, const ParticleBuffers& particles,
+                     float time) const;
+    /// What the last look has found: after its commands are done.
+    [[nodiscard]] shared::PoolChanges changes() const;
 
-    [[nodiscard]] std::uint64_t device_bytes() const { return release_time_.size() + freed_.size(); }
+    /// s, by id.
+    [[nodiscard]] const gpu::Buffer& release_time() const { return release_time_; }
+
+    [[nodiscard]] std::uint64_t device_bytes() const { return release_time_.size() + changes_.size(); }
 
 private:
     gpu::Kernel front_;
+    gpu::Kernel count_dead_;
     gpu::Buffer release_time_;
-    gpu::Buffer freed_;    ///< uint
+    gpu::Buffer changes_;  ///< shared::PoolChanges
     gpu::Buffer readback_; ///< the same
 };
 

@@ -40,12 +40,13 @@ glm::uvec3 grid_size(const glm::vec3& domain_min, const glm::vec3& domain_max, f
 }
 
 NeighborGrid::NeighborGrid(const gpu::Context& context, std::uint32_t particle_count, const glm::uvec3& size,
-                           bool still)
-    : cell_count(checked_cell_count(size)), sort(context),
+                           bool has_still)
+    : cell_count(checked_cell_count(size)), still(has_still), sort(context),
       key(gpu::make_buffer<std::uint32_t>(context, particle_count, "cell key")),
       order(gpu::make_buffer<std::uint32_t>(context, particle_count, "sorted order")),
-      cell_start(gpu::make_buffer<std::uint32_t>(context, (still ? 2 : 1) * cell_count + 1, "cell start")),
-      scratch(sort.make_scratch(particle_count, (still ? 2 : 1) * cell_count)),
+      cell_start(
+          gpu::make_buffer<std::uint32_t>(context, (has_still ? 2 * cell_count + 1 : cell_count) + 1, "cell start")),
+      scratch(sort.make_scratch(particle_count, has_still ? 2 * cell_count + 1 : cell_count)),
       sorted_id(gpu::make_buffer<std::uint32_t>(context, particle_count, "id")),
       sorted_attributes(gpu::make_buffer<std::uint32_t>(context, particle_count, "attributes")),
       sorted_position(gpu::make_texel_buffer(context, particle_count, "position")),
@@ -92,8 +93,8 @@ void record_partition(gpu::Commands& commands, const FluidKernels& kernels, cons
         const gpu::Scope scope(commands, "partition");
         commands.dispatch(kernels.partition_key, count, gpu::NoPush{},
                           {read(params), read(particles.position), read(particles.attributes), gpu::write(grid.key)});
-        grid.sort.record(commands, {grid.key, particles.id, count, 2 * grid.cell_count}, {grid.cell_start, grid.order},
-                         grid.scratch);
+        grid.sort.record(commands, {grid.key, particles.id, count, 2 * grid.cell_count + 1},
+                         {grid.cell_start, grid.order}, grid.scratch);
     }
     record_reorder(commands, kernels, particles, grid, count);
     if (particles.moving == 0) {

@@ -21,16 +21,17 @@ struct NeighborGrid {
     /// and 3 d, images included. No result depends on it.
     static constexpr std::uint32_t neighbor_words = 12;
 
-    /// `still`: whether there may be still particles. Throws Input when the domain has more cells than a device of this
-    /// kind can hold.
-    NeighborGrid(const gpu::Context& context, std::uint32_t particle_count, const glm::uvec3& size, bool still);
+    /// has_still: whether there may be still particles. Throws Input when the domain has more cells than a device of
+    /// this kind can hold.
+    NeighborGrid(const gpu::Context& context, std::uint32_t particle_count, const glm::uvec3& size, bool has_still);
 
     std::uint32_t cell_count;
+    bool still; ///< has a table of cells for still particles
     primitives::CountingSort sort;
-    gpu::Buffer key;   ///< uint: cell of each particle, in the order before the sort
-    gpu::Buffer order; ///< uint: sorted slot -> place before the sort
-    gpu::Buffer
-        cell_start; ///< uint: starts in the sorted order of each cell, of each again among the still, and the end
+    gpu::Buffer key;        ///< uint: cell of each particle, in the order before the sort
+    gpu::Buffer order;      ///< uint: sorted slot -> place before the sort
+    gpu::Buffer cell_start; ///< uint: starts in the sorted order of each cell, of each again among the still, of the
+                            ///< dead, and the end
     primitives::CountingSort::Scratch scratch;
     // Where reorder writes; swapped with the particles' own buffers afterwards.
     gpu::Buffer sorted_id;

@@ -69,7 +69,7 @@ shared::SphParams complete_params(const shared::SphParams& params, const FluidOp
     shared::SphParams complete = complete_params(params, particles.size());
     if (options.still) {
         complete.moving_count -=
-            static_cast<std::uint32_t>(std::ranges::count_if(particles.attributes, shared::is_boundary));
+            static_cast<std::uint32_t>(std::ranges::count_if(particles.attributes, shared::is_still));
     }
     return complete;
 }
@@ -114,6 +114,9 @@ Simulation::Simulation(const gpu::Context& context, const ParticleSet& particles
         }
         erosion_.emplace(context, particles.release_time);
         erosion_commands_ = std::make_unique<gpu::Commands>(context);
+        if (settings.dust) {
+            dust_.emplace(context, *settings.dust);
+        }
     }
     solver_->record_start(*commands_, fluid());
     commands_->submit();
@@ -137,13 +140,14 @@ void Simulation::erode(double time)
     }
     gpu::Commands& commands = *erosion_commands_;
     commands.begin();
-    erosion_->record_front(commands, params_buffer_, particles_, static_cast<float>(time));
+    erosion_->record_look(commands, params_buffer_, particles_, static_cast<float>(time));
     commands.submit();
     commands.wait();
-    params_.moving_count += erosion_->freed();
+    const auto [freed, died] = erosion_->changes();
+    params_.moving_count += freed - died;
     particles_.moving = params_.moving_count;
     next_erosion_ = step_ + Erosion::interval(params_.pool_count, params_.moving_count);
-    if (erosion_->freed() == 0) {
+    if (freed == 0 && died == 0) {
         return;
     }
     commands.begin();
@@ -163,10 +167,15 @@ void Simulation::erode(double time)
     commands.wait();
 }
 
-Simulation::Readback Simulation::submit_steps(std::uint32_t steps)
+Simulation::Readback Simulation::submit_steps(std::uint32_t steps, double start)
 {
+    const double fixed_dt = time_.adaptive() ? 0.0 : static_cast<double>(params_.dt);
     for (std::uint32_t i = 0; i < steps; ++i) {
         solver_->record_step(*commands_, fluid(), static_cast<std::uint32_t>(step_ + i));
+        if (dust_) {
+            dust_->record(*commands_, fluid(), erosion_->release_time(),
+                          static_cast<float>(start + (i + 1) * fixed_dt));
+        }
     }
     commands_->copy(status_, readback_, sizeof(shared::Status), 0, offsetof(Readback, status));
     commands_->copy(time_.state(), readback_, sizeof(shared::TimeStep), 0, offsetof(Readback, time));
@@ -185,7 +194,7 @@ void Simulation::advance(std::uint32_t steps)
         const std::uint32_t batch = std::min({steps, steps_a_submission(), steps_until_erosion()});
         commands_->begin();
         time_.set_remaining(*commands_, std::numeric_limits<float>::infinity());
-        const Readback seen = submit_steps(batch);
+        const Readback seen = submit_steps(batch, seconds_);
         seconds_ += time_.adaptive() ? static_cast<double>(seen.time.elapsed) : batch * static_cast<double>(params_.dt);
         steps -= batch;
     }
@@ -211,7 +220,8 @@ void Simulation::advance_by(double seconds)
             time_.set_remaining(*commands_, state.remaining);
         }
         state = submit_steps(TimeControl::least_steps(state, params_.longest_dt,
-                                                      std::min(steps_a_submission(), steps_until_erosion())))
+                                                      std::min(steps_a_submission(), steps_until_erosion())),
+                             wanted_seconds_ - seconds)
                     .time;
     }
     seconds_ = wanted_seconds_;
@@ -365,8 +375,8 @@ Simulation::BoundaryForceMeans Simulation::take_boundary_forces()
 
 void Simulation::enable_timings()
 {
-    const std::uint32_t scopes =
-        solver_->scopes() + vorticity_.scopes() + (viscosity_ ? 1 : 0) + (shifting_ ? 1 : 0) + (capillarity_ ? 1 : 0);
+    const std::uint32_t scopes = solver_->scopes() + vorticity_.scopes() + (viscosity_ ? 1 : 0) + (shifting_ ? 1 : 0) +
+                                 (capillarity_ ? 1 : 0) + (dust_ ? 1 : 0);
     commands_ = std::make_unique<gpu::Commands>(*context_, max_steps_per_submission * scopes);
 }
 

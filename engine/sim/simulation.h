@@ -10,6 +10,7 @@
 #include "particle_buffers/particle_buffers.h"
 #include "particles/particle_set.h"
 #include "shared/sph_params.h"
+#include "sim/dust.h"
 #include "sim/erosion.h"
 #include "sim/fluid_kernels.h"
 #include "sim/implicit_viscosity.h"
@@ -22,6 +23,7 @@ namespace meltpoint::sim {
 struct SimulationSettings {
     shared::SphParams params{}; ///< moving_count, pool_count and grid_size are filled in
     FluidOptions options;
+    std::optional<shared::DustParams> dust; ///< where some of the solids crumble
 };
 
 /// The params with the numbers of particles and the grid size filled in: all of them move.
@@ -118,9 +120,10 @@ private:
         shared::Status status;
         shared::TimeStep time;
     };
-    Readback submit_steps(std::uint32_t steps);
-    /// Where a look at the solids is due: those that are due to turn into fluid do, and the pool is parted anew. `time`
-    /// in s since the start.
+    /// start: s since the start when TimeStep::elapsed is 0; where steps are fixed, when the first of these begins.
+    Readback submit_steps(std::uint32_t steps, double start);
+    /// Where a look at the solids is due: those that are due to turn into fluid or dust do, and the pool is parted
+    /// anew. `time` in s since the start.
     void erode(double time);
     void check_status(const shared::Status& status) const;
     [[nodiscard]] std::uint32_t steps_a_submission() const;
@@ -150,6 +153,7 @@ private:
     std::optional<Shifting> shifting_;
     std::optional<Capillarity> capillarity_;
     std::optional<Erosion> erosion_;
+    std::optional<Dust> dust_;
     ParticleBuffers particles_;
     NeighborGrid grid_;
     gpu::Buffer params_buffer_;

@@ -81,7 +81,7 @@ void record_count_neighbors(gpu::Commands& commands, const FluidKernels& kernels
 
 void record_initial_state(gpu::Commands& commands, const Fluid& fluid)
 {
-    if (fluid.particles.moving < fluid.particles.count) {
+    if (fluid.grid.still) {
         record_partition(commands, fluid.kernels, fluid.params, fluid.particles, fluid.grid);
     } else {
         record_sort(commands, fluid.kernels, fluid.params, fluid.particles, fluid.grid);

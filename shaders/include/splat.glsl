@@ -5,6 +5,7 @@
 // sphere, the tangents from the eye. Whatever crosses the near plane is bounded by its part beyond it.
 #ifndef SPLAT_GLSL
 #define SPLAT_GLSL
+#include "shared/particle_state.h"
 
 #include "shared/render_params.h"
 
@@ -176,6 +177,12 @@ vec4 quad_vertex(SplatCamera camera, vec4 bound, float nearest, uint vertex)
     vec2 ndc = vec2((corner & 1u) != 0u ? high.x : low.x, (corner & 2u) != 0u ? high.y : low.y);
     const float slack = 1.0 + 1e-6; // interpolation may round the depth down
     return vec4(ndc, min(depth_at(camera, max(nearest, camera.near_distance)) * slack, 1.0), 1.0);
+}
+
+// The radius of a particle's sphere: dust shrinks with what is left of it, which lies in its density.
+float particle_radius(float radius, uint attributes, float density)
+{
+    return particle_state(attributes) == STATE_DUST ? radius * pow(density, 1.0 / 3.0) : radius;
 }
 
 #endif

@@ -42,7 +42,7 @@ float in_range(float value) { return (value - params.color_range.x) / (params.co
 vec3 particle_color(uint particle)
 {
     uint material = min(particle_material(attributes[particle]), MAX_MATERIALS - 1u);
-    vec3 color = particle_state(attributes[particle]) == STATE_SOLID ? params.solid_color[material] : params.material_color[material];
+    vec3 color = (particle_state(attributes[particle]) == STATE_SOLID || particle_state(attributes[particle]) == STATE_DUST) ? params.solid_color[material] : params.material_color[material];
     if (params.color_mode != COLOR_MATERIAL && is_boundary(attributes[particle])) { // it has none of these quantities
         return vec3(dot(color, LUMINANCE));
     }
@@ -70,7 +70,8 @@ Surface sphere_surface(uint particle, Ray ray)
 {
     vec3 center = (params.camera.view * vec4(position[particle].xyz, 1.0)).xyz;
     float miss;
-    vec3 point = intersect_sphere(params.camera, ray, center, params.splat_radius, miss);
+    float radius = particle_radius(params.splat_radius, attributes[particle], density[particle]);
+    vec3 point = intersect_sphere(params.camera, ray, center, radius, miss);
     vec3 normal = to_world_direction(normalize(point - center));
     return Surface(to_world(point), normal, particle_color(particle), particle_gloss(particle));
 }

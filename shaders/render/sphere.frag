@@ -8,6 +8,7 @@ layout(push_constant, scalar) uniform Push { SplatPush push; };
 
 layout(location = 0) flat in vec3 in_center;
 layout(location = 1) flat in uint in_particle;
+layout(location = 2) flat in float in_radius;
 
 layout(location = 0) out uint out_surface;
 layout(depth_less) out float gl_FragDepth;
@@ -16,7 +17,7 @@ void main()
 {
     Ray ray = ray_through(push.camera, ndc_of_sample(push.camera, gl_FragCoord.xy));
     float miss;
-    vec3 point = intersect_sphere(push.camera, ray, in_center, push.radius, miss);
+    vec3 point = intersect_sphere(push.camera, ray, in_center, in_radius, miss);
     if (miss > 0.0 || !in_depth_range(push.camera, point)) {
         discard;
     }

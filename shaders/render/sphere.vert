@@ -7,22 +7,25 @@
 
 layout(binding = 0, scalar) readonly buffer Positions { vec4 position[]; };
 layout(binding = 1, scalar) readonly buffer Attributes { uint attributes[]; };
+layout(binding = 2, scalar) readonly buffer Densities { float density[]; }; // of dust: what is left of it
 layout(push_constant, scalar) uniform Push { SplatPush push; };
 
 layout(location = 0) flat out vec3 out_center; // view space
 layout(location = 1) flat out uint out_particle;
+layout(location = 2) flat out float out_radius;
 
 void main()
 {
     uint particle = uint(gl_VertexIndex) / VERTICES_PER_QUAD;
     vec3 center = (push.camera.view * vec4(position[particle].xyz, 1.0)).xyz;
-    float radius = push.radius;
+    float radius = particle_radius(push.radius, attributes[particle], density[particle]);
 
     vec4 bound = NOWHERE.xxyy;
-    if (particle_state(attributes[particle]) != STATE_DEAD) {
+    if (particle_state(attributes[particle]) != STATE_DEAD && radius > 0.0) {
         bound = sphere_bound(push.camera, center, radius);
     }
     gl_Position = quad_vertex(push.camera, bound, -center.z - radius, uint(gl_VertexIndex) % VERTICES_PER_QUAD);
     out_center = center;
     out_particle = particle;
+    out_radius = radius;
 }

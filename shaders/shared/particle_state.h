@@ -7,20 +7,23 @@ SHARED_BEGIN
 
 SHARED_CONSTANT uint STATE_SOLID = 0u; // of a body that may turn into fluid: a boundary particle with a mass
 SHARED_CONSTANT uint STATE_FLUID = 1u;
-SHARED_CONSTANT uint STATE_DUST = 2u;
+SHARED_CONSTANT uint STATE_DUST = 2u;  // of what was a solid, drifts with the air (shared/dust.h)
 SHARED_CONSTANT uint STATE_COLLIDER = 3u;
 SHARED_CONSTANT uint STATE_DEAD = 4u;
 
 // A particle's attributes in one word: state in bits 0..7, material in bits 8..15, flags above.
 SHARED_CONSTANT uint MATERIAL_SHIFT = 8u;
 SHARED_CONSTANT uint FLAG_LEFT_DOMAIN = 0x10000u; // was outside the domain at least once; never cleared
+SHARED_CONSTANT uint FLAG_CRUMBLES = 0x20000u;   // solid that turns into dust, not fluid
 
 SHARED_FUNCTION uint particle_state(uint attributes) { return attributes & 0xffu; } // STATE_*
 SHARED_FUNCTION uint particle_material(uint attributes) { return (attributes >> MATERIAL_SHIFT) & 0xffu; } // its number
-// A boundary particle: fluid meets it, but no force moves it.
-SHARED_FUNCTION bool is_boundary(uint attributes)
+// A boundary particle: no force of the fluid moves it. Fluid meets it where it has a weight: dust and the dead have none.
+SHARED_FUNCTION bool is_boundary(uint attributes) { return particle_state(attributes) != STATE_FLUID; }
+// One that stays where it is. The dead are no longer anywhere, which is the same.
+SHARED_FUNCTION bool is_still(uint attributes)
 {
-    return particle_state(attributes) == STATE_COLLIDER || particle_state(attributes) == STATE_SOLID;
+    return is_boundary(attributes) && particle_state(attributes) != STATE_DUST;
 }
 SHARED_FUNCTION uint with_state(uint attributes, uint state) { return (attributes & ~0xffu) | state; }
 SHARED_FUNCTION uint pack_attributes(uint state, uint material) { return state | (material << MATERIAL_SHIFT); } // no flags

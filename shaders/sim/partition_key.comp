@@ -1,7 +1,7 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
-// The key of the sort that parts the pool: a moving particle's cell, or a still one's in the table of cells behind. Twin:
-// engine/reference/cells.cpp.
+// The key of the sort that parts the pool: a moving particle's cell, or a still one's in the table of cells behind; the dead
+// come after all cells. Twin: engine/reference/cells.cpp.
 #include "include/grid.glsl"
 #include "include/invocation.glsl"
 #include "shared/particle_state.h"
@@ -17,6 +17,7 @@ void main()
     if (i < params.pool_count) {
         uint cells = params.grid_size.x * params.grid_size.y * params.grid_size.z;
         uint cell = cell_of(position[i].xyz, params.domain_min, params.support_radius, params.grid_size);
-        key[i] = cell + (is_boundary(attributes[i]) ? cells : 0u);
+        bool dead = particle_state(attributes[i]) == STATE_DEAD;
+        key[i] = dead ? 2u * cells : cell + (is_still(attributes[i]) ? cells : 0u);
     }
 }

@@ -69,6 +69,29 @@ TEST_F(FrameTest, SolidsHaveColorsOfTheirOwn)
     EXPECT_EQ(gray.g, gray.b);
 }
 
+TEST_F(FrameTest, DustShrinksWithWhatIsLeftOfIt)
+{
+    render::FrameSettings settings = close_up();
+    settings.solid_color[0] = {0.2f, 0.6f, 0.4f};
+    TestParticles particles;
+    particles.add({}, 0, shared::STATE_DUST);
+    const auto covered = [&](float left) {
+        particles.density[0] = left;
+        const Drawn drawn = draw(65, 65, settings, &particles);
+        int pixels = 0;
+        for (std::uint32_t y = 0; y < 65; ++y) {
+            for (std::uint32_t x = 0; x < 65; ++x) {
+                pixels += close(drawn.pixel(x, y), settings.solid_color[0]) ? 1 : 0;
+            }
+        }
+        return pixels;
+    };
+    const int whole = covered(1.0f);
+    EXPECT_GT(whole, 300);
+    EXPECT_NEAR(covered(0.125f), 0.25 * whole, 0.08 * whole); // half the radius
+    EXPECT_EQ(covered(0.0f), 0);
+}
+
 TEST_F(FrameTest, MaterialsHaveTheirColors)
 {
     TestParticles particles;

@@ -140,7 +140,8 @@ TEST_F(ErosionTest, WhoIsFarFromTheFreedDoesNotNotice)
         start.attributes[0] = shared::pack_attributes(shared::STATE_SOLID, 2);
         const ParticleSet block = lattice_state({8, 9, 8}, glm::vec3(0.4f, 0.5f * d, 0.4f));
         for (std::size_t i = 0; i < block.size(); ++i) {
-            add_particle(start, block.position[i], glm::vec3(0.3f, -1.0f, 0.1f));
+            const glm::vec3& x = block.position[i]; // sheared, or viscosity would have nothing to do
+            add_particle(start, x, glm::vec3(2.0f * x.y, -1.0f - x.x, 3.0f * x.x));
         }
         ParticleSet seen[2];
         for (const bool frees : {false, true}) {
