@@ -714,8 +714,8 @@ mutation "solids: a front frees what it has not reached" \
     conformance_tests 'ErosionTest.*'
 mutation "solids: what is freed weighs nothing" \
     shaders/sim/front.comp \
-    'velocity[i].w = abs(velocity[i].w);' \
-    '' \
+    'crumbles ? velocity[i].w : abs(velocity[i].w)' \
+    'velocity[i].w' \
     conformance_tests 'ErosionTest.*'
 mutation "solids: viscous changes stay behind when the pool is parted" \
     engine/sim/implicit_viscosity.cpp \
@@ -728,6 +728,41 @@ mutation "solids: warm starts stay behind when the pool is parted" \
     'record_reorder(commands, fluid, fluid.particles.count);' \
     '' \
     conformance_tests 'ErosionTest.WhoIsFarFromTheFreedDoesNotNotice'
+mutation "dust: fluid meets it" \
+    shaders/sim/front.comp \
+    'position[i].w = crumbles ? 0.0 : position[i].w;' \
+    '' \
+    conformance_tests 'DustTest.*'
+mutation "dust: the eddies stay where they are" \
+    shaders/sim/dust.comp \
+    'vec3 carried = x - dust.wind * time;' \
+    'vec3 carried = x;' \
+    conformance_tests 'DustTest.DriftsAsItsTwin'
+mutation "dust: it never dies" \
+    shaders/sim/dust.comp \
+    'if (!(inside && left > 0.0)) {' \
+    'if (!inside) {' \
+    conformance_tests 'DustTest.*'
+mutation "dust: the dead go on moving with the others" \
+    shaders/sim/partition_key.comp \
+    'dead ? 2u * cells : cell' \
+    'false ? 2u * cells : cell' \
+    conformance_tests 'DustTest.*'
+mutation "dust: eddies may go along their own waves" \
+    engine/run/dust_params.cpp \
+    'wave.amplitude = amplitude * glm::normalize(across);' \
+    'wave.amplitude = amplitude * glm::normalize(across + 0.2 * along);' \
+    unit_tests 'DustParams.*'
+mutation "dust: its spheres never shrink" \
+    shaders/include/splat.glsl \
+    'radius * pow(density, 1.0 / 3.0)' \
+    'radius' \
+    image_tests 'FrameTest.DustShrinksWithWhatIsLeftOfIt'
+mutation "solids: fronts go on where they should come from" \
+    engine/run/dissolve_front.cpp \
+    'way[i] - entry + ' \
+    'way[i] + ' \
+    unit_tests 'DissolveFront.*'
 mutation "solve: all of an excess is taken away, however short the step" \
     shaders/shared/solve.h \
     'return dt < correction_time ? dt / correction_time : 1.0f' \

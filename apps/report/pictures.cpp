@@ -107,7 +107,9 @@ std::string make_gallery(const Workplace& workplace)
           {{0, "teapot_drop_00.png", "a teapot of particles above the floor"},
            {20, "teapot_drop_20.png", "it hits the floor"},
            {31, "teapot_drop_31.png", "the splash climbs the walls"}}},
-         {"dam_break", {"render.color=speed"}, {{27, "dam_break_speed.png", "a dam break colored by speed"}}}});
+         {"dam_break", {"render.color=speed"}, {{27, "dam_break_speed.png", "a dam break colored by speed"}}},
+         {"dissolve", {}, {{32, "dissolve_32.png", "a rabbit dissolves into a thick fluid"}}},
+         {"vanish", {}, {{38, "vanish_38.png", "and crumbles into dust that the wind carries off"}}}});
 }
 
 std::string make_figures(const Workplace& workplace)

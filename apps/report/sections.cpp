@@ -156,7 +156,7 @@ std::span<const SectionMaker> section_makers()
 {
     static const std::vector<SectionMaker> makers = [] {
         std::vector<SectionMaker> all = {
-            {"gallery", "Pictures", "frames of teapot_drop and dam_break", make_gallery},
+            {"gallery", "Pictures", "frames of scenes", make_gallery},
             {"figures", "The source paper's figures", "figures 1 to 6 of the source paper", make_figures},
             {"conformance", "GPU against the CPU reference", "every pass against its twin in double precision",
              make_conformance},
