@@ -732,7 +732,7 @@ mutation "dust: fluid meets it" \
     shaders/sim/front.comp \
     'position[i].w = crumbles ? 0.0 : position[i].w;' \
     '' \
-    conformance_tests 'DustTest.*'
+    conformance_tests 'DustTest.DriftsAsItsTwin'
 mutation "dust: the eddies stay where they are" \
     shaders/sim/dust.comp \
     'vec3 carried = x - dust.wind * time;' \
@@ -742,12 +742,12 @@ mutation "dust: it never dies" \
     shaders/sim/dust.comp \
     'if (!(inside && left > 0.0)) {' \
     'if (!inside) {' \
-    conformance_tests 'DustTest.*'
+    conformance_tests 'DustTest.EndsWithItsLifeOrTheDomain'
 mutation "dust: the dead go on moving with the others" \
     shaders/sim/partition_key.comp \
     'dead ? 2u * cells : cell' \
     'false ? 2u * cells : cell' \
-    conformance_tests 'DustTest.*'
+    conformance_tests '*PassConformance.StillParticles/OnACollider*'
 mutation "dust: eddies may go along their own waves" \
     engine/run/dust_params.cpp \
     'wave.amplitude = amplitude * glm::normalize(across);' \

@@ -182,7 +182,10 @@ Simulation::Readback Simulation::submit_steps(std::uint32_t steps, double start)
     commands_->submit();
     commands_->wait();
     const Readback seen = readback_.mapped<Readback>()[0];
-    check_status(seen.status);
+    // A time that the device chose is that of the last of these steps.
+    const double after = time_.adaptive() ? static_cast<double>(seen.time.elapsed)
+                                          : static_cast<double>(seen.status.first_faulty_step - step_) * fixed_dt;
+    check_status(seen.status, start + after);
     step_ += steps;
     return seen;
 }
@@ -227,13 +230,13 @@ void Simulation::advance_by(double seconds)
     seconds_ = wanted_seconds_;
 }
 
-void Simulation::check_status(const shared::Status& status) const
+void Simulation::check_status(const shared::Status& status, double time)
 {
     if (status.first_faulty_step == shared::NO_STEP) {
         return;
     }
     throw runtime_error("the simulation broke down in step {} (after {:.6g} s) at particle {}: {}",
-                        status.first_faulty_step, seconds_, shared::offender_id(status.offender),
+                        status.first_faulty_step, time, shared::offender_id(status.offender),
                         describe_fault(shared::offender_fault(status.offender)));
 }
 

@@ -125,7 +125,8 @@ private:
     /// Where a look at the solids is due: those that are due to turn into fluid or dust do, and the pool is parted
     /// anew. `time` in s since the start.
     void erode(double time);
-    void check_status(const shared::Status& status) const;
+    /// Throws where there is a fault; `time` of it in s since the start.
+    static void check_status(const shared::Status& status, double time);
     [[nodiscard]] std::uint32_t steps_a_submission() const;
     [[nodiscard]] Fluid fluid()
     {

@@ -81,6 +81,7 @@ TEST_F(DustTest, DriftsAsItsTwin)
             EXPECT_LT(glm::distance(glm::dvec3(found.velocity[i]), twin.velocity[i]), 1e-3);
             EXPECT_NEAR(static_cast<double>(found.density[i]), twin.density[i], 1e-4);
             EXPECT_EQ(found.mass[i], start.mass[i]);
+            EXPECT_EQ(found.weight[i], 0.0f);
             moved += glm::distance(glm::dvec3(start.position[i]), twin.position[i]);
         }
         EXPECT_GT(moved, 0.01 * static_cast<double>(found.size()));
