@@ -77,8 +77,8 @@ std::uint32_t cell_of(const shared::SphParams& params, const glm::vec3& x)
     return (c.z * params.grid_size.y + c.y) * params.grid_size.x + c.x;
 }
 
-/// Every particle once, in the slots of its cell, those of still particles behind all others, ids ascending within a
-/// cell, all attributes moved along. before: by id.
+/// Every particle once, in the slots of its cell, those of still particles behind all others, the dead last, ids
+/// ascending within a cell, all attributes moved along. before: by id.
 PassError sort_error(Device& device, const ParticleSet& before, const std::string& name)
 {
     const ParticleSet after = download_unordered(device.context, device.particles);
@@ -101,11 +101,10 @@ PassError sort_error(Device& device, const ParticleSet& before, const std::strin
                 after.position[slot] == before.position[id] && after.mass[slot] == before.mass[id] &&
                 after.velocity[slot] == before.velocity[id] && after.attributes[slot] == before.attributes[id];
             const bool ascending = slot == start[key] || after.id[slot - 1] < id;
+            const bool dead = shared::particle_state(after.attributes[slot]) == shared::STATE_DEAD;
             bool right_cell =
-                key == 2 * cells
-                    ? shared::particle_state(after.attributes[slot]) == shared::STATE_DEAD
-                    : cell_of(device.params, after.position[slot]) == cell;
-            if (!right_cell && near_cell_border(device.params, after.position[slot])) {
+                dead && device.grid.still ? key == 2 * cells : cell_of(device.params, after.position[slot]) == cell;
+            if (!right_cell && !dead && near_cell_border(device.params, after.position[slot])) {
                 ++result.excluded;
                 right_cell = true;
             }
