@@ -280,6 +280,10 @@ TEST_P(PassConformance, StillParticles)
             particles.attributes[i] = shared::with_state(particles.attributes[i], shared::STATE_SOLID);
             particles.mass[i] = test_rest_density * d * d * d;
             particles.weight[i] = 1.0f;
+            if (i % 10 == 0) {
+                particles.attributes[i] = shared::with_state(particles.attributes[i], shared::STATE_DEAD);
+                particles.weight[i] = 0.0f;
+            }
         }
     }
     sim::SimulationSettings plain = test_settings(kernel);
