@@ -12,6 +12,7 @@
 #include "core/error.h"
 #include "particles/sph_kernel.h"
 #include "run/dust_params.h"
+#include "run/emission_settings.h"
 #include "run/plane_scene.h"
 #include "run/scene_warnings.h"
 #include "scene/materials.h"
@@ -353,6 +354,7 @@ FluidSettings fluid_settings(const Scene& any_scene, const ParticleSet& particle
     if (std::ranges::any_of(scene.solids, [](const SolidBody& solid) { return solid.becomes == SolidBecomes::Dust; })) {
         settings.simulation.dust = dust_params(scene);
     }
+    settings.simulation.emission = emission_settings(scene, particles);
     options.still = std::ranges::any_of(particles.attributes, shared::is_boundary);
     options.colliders = options.capillarity && options.still;
     options.xsph = params.xsph > 0.0f;

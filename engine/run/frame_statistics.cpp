@@ -79,6 +79,11 @@ FrameStatistics measure(const ParticleSet& particles, const shared::SphParams& p
         statistics.potential_energy -= mass * glm::dot(gravity, x - lowest);
         statistics.momentum += mass * v;
         statistics.outside += (attributes & shared::FLAG_LEFT_DOMAIN) != 0 ? 1 : 0;
+        if (state == shared::STATE_SOLID) {
+            statistics.solid_mass += mass;
+            statistics.solid_volume +=
+                mass / static_cast<double>(params.rest_density[shared::particle_material(attributes)]);
+        }
         if (state != shared::STATE_FLUID) {
             continue;
         }
@@ -106,7 +111,9 @@ std::string_view statistics_header()
            "momentum_y,"
            "momentum_z,com_x,com_y,com_z,min_x,min_y,min_z,max_x,max_y,max_z,density_error_mean,density_error_max,"
            "speed_max,"
-           "outside,neighbors_mean,simulate_ms,draw_ms,iterations_density,iterations_divergence,iterations_viscosity\n";
+           "outside,neighbors_mean,simulate_ms,draw_ms,iterations_density,iterations_divergence,iterations_viscosity,"
+           "deposited,enthalpy,solid_volume,exposed_area,fragments,emitted,sunk,rate_melt,rate_hydraulic,rate_wind,"
+           "rate_dissolve\n";
 }
 
 std::string statistics_row(const FrameStatistics& s)
@@ -124,9 +131,11 @@ std::string statistics_row(const FrameStatistics& s)
     const auto cell_or_empty = [](const std::optional<double>& value) {
         return value ? cell(*value) : std::string();
     };
-    row += fmt::format(",{},{},{:.3f},{:.3f},{},{},{}\n", s.outside, cell_or_empty(s.neighbors_mean), s.simulate_ms,
+    row += fmt::format(",{},{},{:.3f},{:.3f},{},{},{}", s.outside, cell_or_empty(s.neighbors_mean), s.simulate_ms,
                        s.draw_ms, cell_or_empty(s.iterations_density), cell_or_empty(s.iterations_divergence),
                        cell_or_empty(s.iterations_viscosity));
+    row +=
+        fmt::format(",,,{},,,{},{},,,,{}\n", cell(s.solid_volume), s.emitted, s.sunk, cell_or_empty(s.rate_dissolve));
     return row;
 }
 

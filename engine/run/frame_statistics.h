@@ -45,6 +45,11 @@ struct FrameStatistics {
     std::optional<double> iterations_density;    ///< of a step's density solve, mean since the frame before
     std::optional<double> iterations_divergence; ///< likewise
     std::optional<double> iterations_viscosity;  ///< likewise
+    double solid_volume = 0.0;                   ///< m^3
+    double solid_mass = 0.0;                     ///< kg; not in the file
+    std::uint64_t emitted = 0;                   ///< particles, since the start
+    std::uint64_t sunk = 0;                      ///< likewise, dust at the end of its life among them
+    std::optional<double> rate_dissolve; ///< kg/s that dissolved, mean since the frame before; empty in the first
 };
 
 /// Everything but frame, time, steps, dt, neighbors and wall times.

@@ -124,9 +124,11 @@ std::size_t replace_meshes(Scene& scene, const std::string& mesh)
     std::size_t replaced = 0;
     for_each_body_list(scene, [&](std::string_view, auto& bodies, const auto&) {
         for (auto& body : bodies) {
-            if (auto* shape = std::get_if<MeshShape>(&body.shape)) {
-                shape->mesh = mesh;
-                ++replaced;
+            if constexpr (std::is_same_v<decltype(body.shape), BodyShape>) {
+                if (auto* shape = std::get_if<MeshShape>(&body.shape)) {
+                    shape->mesh = mesh;
+                    ++replaced;
+                }
             }
         }
     });

@@ -291,6 +291,18 @@ void warn_of_capped_speeds(const Scene& scene, std::uint32_t capped, std::uint64
     }
 }
 
+/// Warns once of an emitter that has no particles left.
+void warn_of_missed_births(const std::vector<std::uint64_t>& missed, std::uint32_t frame, bool& warned)
+{
+    const auto first = std::ranges::find_if(missed, [](std::uint64_t births) { return births > 0; });
+    if (first != missed.end() && !warned) {
+        log_warning(fmt::format("frame {0}: emitter.{1} pauses, for all of its particles are out "
+                                "(emitter.{1}.particles; what goes into sinks comes back)",
+                                frame, first - missed.begin()));
+        warned = true;
+    }
+}
+
 /// What the solves of a frame's steps were like: warned of once where they are not what the scene asks for, and noted.
 class Watch {
 public:
@@ -306,6 +318,7 @@ public:
             warn_of_capped_speeds(scene_, (*solves_)[shared::SOLVE_DENSITY].capped,
                                   simulation.particles().count * steps, frame, warned_of_cap_);
         }
+        warn_of_missed_births(simulation.missed_births(), frame, warned_of_births_);
         if (viscosity_) {
             warn_of_unmet_viscosity(scene_, *viscosity_, frame, warned_of_viscosity_);
         }
@@ -316,7 +329,15 @@ public:
     {
         if (simulation) {
             statistics.neighbors_mean = mean_neighbors(*simulation, statistics.frame, warned_of_coincident_);
+            const shared::Ledger ledger = simulation->ledger();
+            statistics.emitted = ledger.emitted;
+            statistics.sunk = ledger.sunk;
         }
+        if (solid_mass_ && statistics.time > time_) { // fronts are all that takes from solids
+            statistics.rate_dissolve = (*solid_mass_ - statistics.solid_mass) / (statistics.time - time_);
+        }
+        solid_mass_ = statistics.solid_mass;
+        time_ = statistics.time;
         if (solves_) {
             statistics.iterations_density = (*solves_)[shared::SOLVE_DENSITY].mean_iterations;
             if (scene_.solver == Solver::Dfsph) {
@@ -336,6 +357,9 @@ private:
     bool warned_of_solves_ = false;
     bool warned_of_viscosity_ = false;
     bool warned_of_cap_ = false;
+    bool warned_of_births_ = false;
+    std::optional<double> solid_mass_; ///< kg, at the frame before
+    double time_ = 0.0;                ///< s, of it
 };
 
 /// s; 0 without steps.

@@ -16,6 +16,7 @@
 #include "geometry/volume_sampling.h"
 #include "particles/boundary_distance.h"
 #include "run/dissolve_front.h"
+#include "run/emission_settings.h"
 #include "run/placed_mesh.h"
 #include "run/plane_scene.h"
 #include "run/scene_colliders.h"
@@ -224,6 +225,30 @@ void add_boundary(ParticleSet& particles, const std::vector<glm::vec3>& points, 
     }
 }
 
+/// The dead particles that an emitter will bring to life.
+void add_slots(ParticleSet& particles, const shared::Emitter& emitter, const glm::vec3& place, std::uint32_t material,
+               double mass)
+{
+    const std::size_t first = particles.size();
+    particles.resize(first + emitter.slots);
+    for (std::size_t i = first; i < particles.size(); ++i) {
+        particles.position[i] = place;
+        particles.velocity[i] = emitter.velocity;
+        particles.mass[i] = static_cast<float>(mass);
+        particles.weight[i] = 0.0f;
+        particles.attributes[i] = shared::pack_attributes(shared::STATE_DEAD, material);
+    }
+}
+
+void check_room(const Scene& scene, std::size_t emitter, std::size_t taken, std::uint32_t slots, std::uint64_t limit)
+{
+    if (taken + slots > limit) {
+        throw input_error("{}: emitter.{} has {} particles, which are, with {} others, more than the device can hold, "
+                          "{}: give it fewer with emitter.{}.particles",
+                          scene.name, emitter, slots, taken, limit, emitter);
+    }
+}
+
 } // namespace
 
 SceneParticles make_scene_particles(const Scene& any_scene, std::uint64_t limit)
@@ -280,6 +305,14 @@ SceneParticles make_scene_particles(const Scene& any_scene, std::uint64_t limit)
             std::ranges::copy(times, release.end() - static_cast<std::ptrdiff_t>(times.size()));
         }
     }
+    const sim::EmissionSettings emission =
+        emission_settings(scene, static_cast<std::uint32_t>(result.particles.size()));
+    for (std::size_t e = 0; e < emission.emitters.size(); ++e) {
+        const shared::Emitter& emitter = emission.emitters[e];
+        check_room(scene, e, result.particles.size(), emitter.slots, limit);
+        add_slots(result.particles, emitter, emission.points[emitter.first_point], materials.of_emitter[e],
+                  emitted_mass(scene, scene.emitters[e]));
+    }
     for (std::size_t c = 0; c < colliders.size(); ++c) {
         result.colliders.push_back({.first_id = static_cast<std::uint32_t>(result.particles.size()),
                                     .points = colliders[c].points,
@@ -289,7 +322,8 @@ SceneParticles make_scene_particles(const Scene& any_scene, std::uint64_t limit)
     if (result.particles.size() > limit) {
         throw_too_many(scene, static_cast<double>(result.particles.size()), limit);
     }
-    if (std::ranges::any_of(release, [](float time) { return std::isfinite(time); })) {
+    const bool has_front = std::ranges::any_of(release, [](float time) { return std::isfinite(time); });
+    if (has_front || !emission.empty()) {
         release.resize(result.particles.size(), std::numeric_limits<float>::infinity());
         result.particles.release_time = std::move(release);
     }

@@ -145,12 +145,16 @@ std::optional<std::string> endless_fall(const Scene& scene)
 /// Particles diffuse to where there are fewer: beyond a surface there are none.
 std::optional<std::string> shifted_surface(const Scene& scene, const ParticleSet& particles)
 {
-    if (scene.physics.shifting <= 0.0f || !scene.colliders.empty() || !scene.solids.empty()) {
+    if (scene.physics.shifting <= 0.0f || !scene.emitters.empty() || !scene.colliders.empty() ||
+        !scene.solids.empty()) {
         return std::nullopt;
     }
     const std::vector<Material> materials = scene_materials(scene).materials;
     double filled = 0.0;
     for (std::size_t i = 0; i < particles.size(); ++i) {
+        if (particles.weight[i] == 0.0f) {
+            continue; // not there yet
+        }
         filled += static_cast<double>(particles.mass[i]) /
                   static_cast<double>(materials[shared::particle_material(particles.attributes[i])].rest_density);
     }

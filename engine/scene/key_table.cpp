@@ -189,25 +189,30 @@ Key<Owner> choice(std::string_view name, Field field,
 }
 
 /// Which of its shapes a body has; setting it starts that shape afresh.
-template <class Body>
-Key<Body> shape_key(std::string_view description)
+template <class Body, class... Shapes>
+Key<Body> shape_key(std::string_view description, const std::variant<Shapes...>& /*any of them*/)
 {
     return {.name = "shape",
             .required = true,
             .description = description,
-            .rule = {.kind = ValueKind::Choice, .choices = {"block", "sphere", "mesh"}},
+            .rule = {.kind = ValueKind::Choice, .choices = {shape_word(Shapes{})...}},
             .get = [](const Body& body) { return SceneValue{std::string(shape_name(body.shape))}; },
             .set =
                 [](Body& body, const SceneValue& value) {
-                    const auto& name = std::get<std::string>(value.data);
-                    if (name == "block") {
-                        body.shape = BlockShape{};
-                    } else if (name == "sphere") {
-                        body.shape = SphereShape{};
-                    } else {
-                        body.shape = MeshShape{};
-                    }
+                    const auto start_if_named = [&](auto shape) {
+                        if (std::get<std::string>(value.data) == shape_word(shape)) {
+                            body.shape = std::move(shape);
+                        }
+                    };
+                    (start_if_named(Shapes{}), ...);
                 }};
+}
+
+/// The same of the body's own shapes.
+template <class Body>
+Key<Body> shape_key(std::string_view description)
+{
+    return shape_key<Body>(description, Body{}.shape);
 }
 
 template <class Body>
@@ -231,6 +236,7 @@ Key<Body> optional_of(std::string_view shape, Key<Body> body_key)
 // NOLINTBEGIN(bugprone-macro-parentheses): members, not expressions
 #define FIELD(member) [](auto& owner) -> auto& { return owner.member; }
 #define SHAPE_FIELD(Shape, member) [](auto& body) -> auto& { return std::get<Shape>(body.shape).member; }
+#define ITSELF [](auto& owner) -> auto& { return owner; }
 // NOLINTEND(bugprone-macro-parentheses)
 
 constexpr Range PLACE{-1e4, 1e4};  // m, from the origin
@@ -349,19 +355,20 @@ std::vector<Key<Body>> with_shape_keys(std::string_view description, const std::
     return keys;
 }
 
-/// Setting it gives the body the liquid's values.
-template <class Body>
-Key<Body> liquid_key(std::string_view description)
+/// Setting it gives the body's fluid, a FluidBody, the liquid's values.
+template <class Body, class FluidOf>
+Key<Body> liquid_key(FluidOf fluid_of, std::string_view description)
 {
     std::vector<std::pair<std::string_view, std::string>> words{{"custom", "custom"}};
     for (const Liquid& liquid : liquids()) {
         words.emplace_back(liquid.name, liquid.name);
     }
-    Key<Body> result = choice<Body>("liquid", FIELD(liquid), words, description);
-    result.set = [set = result.set](Body& body, const SceneValue& value) {
+    const auto field = [fluid_of](auto& body) -> auto& { return fluid_of(body).liquid; };
+    Key<Body> result = choice<Body>("liquid", field, words, description);
+    result.set = [set = result.set, fluid_of](Body& body, const SceneValue& value) {
         const Liquid* liquid = find_liquid(std::get<std::string>(value.data));
         if (liquid != nullptr) {
-            set_liquid(body, *liquid);
+            set_liquid(fluid_of(body), *liquid);
         } else {
             set(body, value);
         }
@@ -373,7 +380,7 @@ std::vector<FluidKey> make_fluid_keys()
 {
     const auto k = [](auto... arguments) { return key<FluidBody>(arguments...); };
     return with_shape_keys<FluidBody>("where the fluid starts; each shape has keys of its own", {
-        liquid_key<FluidBody>("what it is: gives rest_density, viscosity, surface_tension and color the values below, unless they stand in the scene; custom: nothing"),
+        liquid_key<FluidBody>(ITSELF, "what it is: gives rest_density, viscosity, surface_tension and color the values below, unless they stand in the scene; custom: nothing"),
         choice<FluidBody>("lattice", FIELD(lattice), {{"cubic", FluidLattice::Cubic}, {"blue-noise", FluidLattice::BlueNoise}}, "how its particles lie at the start: in rows, or evenly without any, relaxed until the density varies by 1 %"),
         k("rest_density", FIELD(rest_density), "kg/m^3", Range{1e-3, 1e5}, "density without pressure"),
         k("viscosity", FIELD(viscosity), "Pa s", Range{0, 1e4}, "dynamic; auto: physics.viscosity. Between two fluids the harmonic mean is at work"),
@@ -390,7 +397,7 @@ std::vector<SolidKey> make_solid_keys()
 {
     const auto k = [](auto... arguments) { return key<SolidBody>(arguments...); };
     return with_shape_keys<SolidBody>("what it is; each shape has keys of its own", {
-        liquid_key<SolidBody>("what it turns into: gives rest_density, viscosity, surface_tension and fluid_color the values of a liquid, unless they stand in the scene; custom: nothing"),
+        liquid_key<SolidBody>(ITSELF, "what it turns into: gives rest_density, viscosity, surface_tension and fluid_color the values of a liquid, unless they stand in the scene; custom: nothing"),
         k("rest_density", FIELD(rest_density), "kg/m^3", Range{1e-3, 1e5}, "density, solid and fluid"),
         k("viscosity", FIELD(viscosity), "Pa s", Range{0, 1e4}, "dynamic, of the fluid; auto: physics.viscosity"),
         k("surface_tension", FIELD(surface_tension), "N/m", Range{0, 1e4}, "of the fluid, as of a [[fluid]]"),
@@ -406,6 +413,42 @@ std::vector<SolidKey> make_solid_keys()
         k("color", FIELD(solid_color), "linear RGB", UNIT, "of the solid, in render.color = \"material\"; gray in the other modes"),
         k("fluid_color", FIELD(color), "linear RGB", UNIT, "of the fluid"),
     });
+}
+
+std::vector<EmitterKey> make_emitter_keys()
+{
+    const auto k = [](auto... arguments) { return key<EmitterBody>(arguments...); };
+    return {
+        shape_key<EmitterBody>("how fluid comes: jet, in layers out of a round nozzle that points along the velocity; inflow, in layers through a rectangle; rain, in single particles at random places; each has keys of its own"),
+        required_of("jet", k("center", SHAPE_FIELD(JetShape, center), "m", PLACE, "of the nozzle")),
+        required_of("jet", k("radius", SHAPE_FIELD(JetShape, radius), "m", Range{1e-5, 1e4}, "of the nozzle")),
+        required_of("inflow", k("min", SHAPE_FIELD(InflowShape, min), "m", PLACE, "lowest corner of the rectangle, which is flat along one axis")),
+        required_of("inflow", k("max", SHAPE_FIELD(InflowShape, max), "m", PLACE, "highest corner")),
+        required_of("rain", k("min", SHAPE_FIELD(RainShape, min), "m", PLACE, "lowest corner of the box, which may be flat, that drops appear in")),
+        required_of("rain", k("max", SHAPE_FIELD(RainShape, max), "m", PLACE, "highest corner")),
+        required_of("rain", k("rate", SHAPE_FIELD(RainShape, rate), "kg/s", Range{1e-12, 1e9}, "how much falls, all in all")),
+        liquid_key<EmitterBody>(FIELD(fluid), "what comes: gives rest_density, viscosity, surface_tension and color the values of a liquid, unless they stand in the scene; custom: nothing"),
+        k("rest_density", FIELD(fluid.rest_density), "kg/m^3", Range{1e-3, 1e5}, "density without pressure"),
+        k("viscosity", FIELD(fluid.viscosity), "Pa s", Range{0, 1e4}, "dynamic; auto: physics.viscosity"),
+        k("surface_tension", FIELD(fluid.surface_tension), "N/m", Range{0, 1e4}, "as of a [[fluid]]"),
+        k("velocity", FIELD(velocity), "m/s", SPEED, "that it comes with: through its rectangle, if it is an inflow"),
+        k("start", FIELD(start), "s", Range{0, 1e6}, "when it begins"),
+        k("stop", FIELD(stop), "s", Range{0, 1e6}, "when it ends; auto: with the run"),
+        k("particles", FIELD(particles), "", Range{1, 1e9}, "that it has: it pauses while all of them are out, and takes those anew that went into sinks; auto: as many as come in the time of the run"),
+        k("color", FIELD(fluid.color), "linear RGB", UNIT, "in render.color = \"material\""),
+    };
+}
+
+std::vector<SinkKey> make_sink_keys()
+{
+    const auto k = [](auto... arguments) { return key<SinkBody>(arguments...); };
+    return {
+        shape_key<SinkBody>("where fluid and dust go out; each shape has keys of its own"),
+        required_of("block", k("min", SHAPE_FIELD(BlockShape, min), "m", PLACE, "lowest corner")),
+        required_of("block", k("max", SHAPE_FIELD(BlockShape, max), "m", PLACE, "highest corner")),
+        required_of("sphere", k("center", SHAPE_FIELD(SphereShape, center), "m", PLACE, "center")),
+        required_of("sphere", k("radius", SHAPE_FIELD(SphereShape, radius), "m", Range{1e-5, 1e4}, "radius")),
+    };
 }
 
 std::vector<ColliderKey> make_collider_keys()
@@ -433,6 +476,7 @@ std::vector<SurfaceKey> make_surface_keys()
 }
 
 #undef SHAPE_FIELD
+#undef ITSELF
 #undef FIELD
 // clang-format on
 
@@ -456,6 +500,18 @@ std::span<const SolidKey> solid_keys()
     return keys;
 }
 
+std::span<const EmitterKey> emitter_keys()
+{
+    static const std::vector<EmitterKey> keys = make_emitter_keys();
+    return keys;
+}
+
+std::span<const SinkKey> sink_keys()
+{
+    static const std::vector<SinkKey> keys = make_sink_keys();
+    return keys;
+}
+
 std::span<const ColliderKey> collider_keys()
 {
     static const std::vector<ColliderKey> keys = make_collider_keys();
@@ -466,16 +522,6 @@ std::span<const SurfaceKey> surface_keys()
 {
     static const std::vector<SurfaceKey> keys = make_surface_keys();
     return keys;
-}
-
-std::string_view shape_name(const BodyShape& shape)
-{
-    struct Name {
-        std::string_view operator()(const BlockShape&) const { return "block"; }
-        std::string_view operator()(const SphereShape&) const { return "sphere"; }
-        std::string_view operator()(const MeshShape&) const { return "mesh"; }
-    };
-    return std::visit(Name{}, shape);
 }
 
 } // namespace meltpoint

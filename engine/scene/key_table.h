@@ -30,6 +30,8 @@ struct Key {
 using SceneKey = Key<Scene>;
 using FluidKey = Key<FluidBody>;
 using SolidKey = Key<SolidBody>;
+using EmitterKey = Key<EmitterBody>;
+using SinkKey = Key<SinkBody>;
 using ColliderKey = Key<ColliderBody>;
 using SurfaceKey = Key<SurfaceBody>;
 
@@ -38,11 +40,42 @@ using SurfaceKey = Key<SurfaceBody>;
 std::span<const SceneKey> scene_keys();
 std::span<const FluidKey> fluid_keys();
 std::span<const SolidKey> solid_keys();
+std::span<const EmitterKey> emitter_keys();
+std::span<const SinkKey> sink_keys();
 std::span<const ColliderKey> collider_keys();
 std::span<const SurfaceKey> surface_keys();
 
-/// Its name: "block", "sphere" or "mesh".
-std::string_view shape_name(const BodyShape& shape);
+constexpr std::string_view shape_word(const BlockShape&)
+{
+    return "block";
+}
+constexpr std::string_view shape_word(const SphereShape&)
+{
+    return "sphere";
+}
+constexpr std::string_view shape_word(const MeshShape&)
+{
+    return "mesh";
+}
+constexpr std::string_view shape_word(const JetShape&)
+{
+    return "jet";
+}
+constexpr std::string_view shape_word(const InflowShape&)
+{
+    return "inflow";
+}
+constexpr std::string_view shape_word(const RainShape&)
+{
+    return "rain";
+}
+
+/// Its name in the file: "block", "sphere", "mesh", "jet", "inflow" or "rain".
+template <class... Shapes>
+[[nodiscard]] std::string_view shape_name(const std::variant<Shapes...>& shape)
+{
+    return std::visit([](const auto& alternative) { return shape_word(alternative); }, shape);
+}
 
 /// The key of that name, null if there is none.
 template <class Owner>
@@ -59,12 +92,23 @@ template <class Body>
     return key.shape.empty() || key.shape == shape;
 }
 
+/// The key of that name of a body of that shape; if it has none, that of another shape.
+template <class Body>
+[[nodiscard]] const Key<Body>* find_key(std::span<const Key<Body>> keys, std::string_view name, std::string_view shape)
+{
+    const auto found =
+        std::ranges::find_if(keys, [&](const Key<Body>& key) { return key.name == name && belongs_to(key, shape); });
+    return found == keys.end() ? find_key(keys, name) : &*found;
+}
+
 /// Calls visit(name, bodies, keys) for each of a scene's arrays of bodies: name is that of its [[tables]].
 template <class AnyScene, class Visit>
 void for_each_body_list(AnyScene& scene, const Visit& visit)
 {
     visit(std::string_view("fluid"), scene.fluids, fluid_keys());
     visit(std::string_view("solid"), scene.solids, solid_keys());
+    visit(std::string_view("emitter"), scene.emitters, emitter_keys());
+    visit(std::string_view("sink"), scene.sinks, sink_keys());
     visit(std::string_view("collider"), scene.colliders, collider_keys());
     visit(std::string_view("surface"), scene.surfaces, surface_keys());
 }

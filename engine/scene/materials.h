@@ -28,6 +28,7 @@ struct SceneMaterials {
     std::vector<Material> materials;        ///< distinct, in order of first use
     std::vector<std::uint32_t> of_fluid;    ///< for each Scene::fluids, its index into materials
     std::vector<std::uint32_t> of_solid;    ///< likewise for Scene::solids
+    std::vector<std::uint32_t> of_emitter;  ///< likewise for Scene::emitters
     std::vector<std::uint32_t> of_collider; ///< likewise for Scene::colliders
 };
 
@@ -76,6 +77,9 @@ inline SceneMaterials scene_materials(const Scene& scene)
         material.contact_angle = body.contact_angle;
         material.solid_color = body.solid_color;
         result.of_solid.push_back(index_of(material));
+    }
+    for (const EmitterBody& body : scene.emitters) {
+        result.of_emitter.push_back(index_of(fluid_material(body.fluid)));
     }
     for (const ColliderBody& body : scene.colliders) {
         result.of_collider.push_back(

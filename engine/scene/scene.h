@@ -133,14 +133,52 @@ struct DissolveFront {
 
 enum class SolidBecomes { Fluid, Dust };
 
-/// A solid that stands still and may turn into fluid, or crumble into dust. What FluidBody says is of that fluid; its velocities are not
-/// used.
+/// A solid that stands still and may turn into fluid, or crumble into dust. What FluidBody says is of that fluid; its
+/// velocities are not used.
 struct SolidBody : FluidBody {
     float friction = 0.0f;                      ///< of fluid against it, Pa s; 0 is free slip
     float contact_angle = 90.0f;                ///< degrees, of fluid with tension at it
     glm::vec3 solid_color{0.72f, 0.55f, 0.38f}; ///< linear RGB, while it is solid
     SolidBecomes becomes = SolidBecomes::Fluid;
     DissolveFront dissolve;
+};
+
+/// A round nozzle; it points along the emitter's velocity.
+struct JetShape {
+    glm::vec3 center{0.0f}; ///< m
+    float radius = 0.0f;    ///< m
+};
+
+/// A rectangle, flat along one axis, that fluid comes through in full.
+struct InflowShape {
+    glm::vec3 min{0.0f}; ///< m
+    glm::vec3 max{0.0f}; ///< m
+};
+
+/// A box, or a rectangle, at random places of which drops appear, a particle each.
+struct RainShape {
+    glm::vec3 min{0.0f}; ///< m
+    glm::vec3 max{0.0f}; ///< m
+    float rate = 0.0f;   ///< kg/s, of all of it
+};
+
+using EmitterShape = std::variant<JetShape, InflowShape, RainShape>;
+
+/// Where fluid comes into a scene that runs.
+struct EmitterBody {
+    EmitterShape shape;
+    FluidBody fluid;                        ///< what comes; its shape, lattice and velocities are not used
+    glm::vec3 velocity{0.0f};               ///< m/s, that it comes with
+    float start = 0.0f;                     ///< s
+    std::optional<float> stop;              ///< s; auto: it never ends
+    std::optional<std::uint32_t> particles; ///< that it has; auto: as many as come in the time of the run
+};
+
+using SinkShape = std::variant<BlockShape, SphereShape>;
+
+/// Where fluid and dust go out of a scene that runs.
+struct SinkBody {
+    SinkShape shape;
 };
 
 /// The air that dust drifts with, and how it does.
@@ -215,13 +253,15 @@ struct Scene {
     TimeSettings time;
     std::vector<FluidBody> fluids;
     std::vector<SolidBody> solids;
+    std::vector<EmitterBody> emitters;
+    std::vector<SinkBody> sinks;
     std::vector<ColliderBody> colliders;
     std::vector<SurfaceBody> surfaces;
     CameraSettings camera;
     RenderSettings render;
 };
 
-/// All bodies that are fluid or may turn into it: the fluids, then the solids.
+/// All bodies that are fluid or may turn into it: the fluids, then the solids, then what emitters bring.
 [[nodiscard]] inline std::vector<const FluidBody*> fluid_bodies(const Scene& scene)
 {
     std::vector<const FluidBody*> bodies;
@@ -230,6 +270,9 @@ struct Scene {
     }
     for (const SolidBody& body : scene.solids) {
         bodies.push_back(&body);
+    }
+    for (const EmitterBody& emitter : scene.emitters) {
+        bodies.push_back(&emitter.fluid);
     }
     return bodies;
 }

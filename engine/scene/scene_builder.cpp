@@ -5,6 +5,7 @@
 #include <map>
 #include <optional>
 #include <system_error>
+#include <type_traits>
 #include <utility>
 
 #include "core/error.h"
@@ -269,7 +270,8 @@ private:
         }
         for_each_body_list(scene_, [&](std::string_view list, auto& bodies, const auto& keys) {
             if (list == path->list) {
-                set_in_body(entry, list, bodies[path->index], keys, *find_key(keys, path->name));
+                auto& body = bodies[path->index];
+                set_in_body(entry, list, body, keys, *find_key(keys, path->name, shape_name(body.shape)));
             }
         });
     }
@@ -287,8 +289,10 @@ private:
                                     key.shape, list, shape, fmt::join(keys_of_shape(keys, shape), ", ")));
         }
         set_value(key, body, entry);
-        if (key.name == "mesh") {
-            resolve_mesh(std::get<MeshShape>(body.shape), entry);
+        if constexpr (std::is_same_v<decltype(body.shape), BodyShape>) { // those of emitters and sinks are no meshes
+            if (key.name == "mesh") {
+                resolve_mesh(std::get<MeshShape>(body.shape), entry);
+            }
         }
     }
 

@@ -8,6 +8,7 @@
 #include "core/error.h"
 #include "scene/key_table.h"
 #include "scene/materials.h"
+#include "shared/emission.h"
 #include "shared/sph_params.h"
 
 namespace meltpoint {
@@ -38,6 +39,7 @@ public:
         check_camera();
         check_render();
         check_fluids();
+        check_flow();
         check_plates("collider", scene_.colliders);
         check_plates("surface", scene_.surfaces);
         check_materials();
@@ -125,7 +127,7 @@ private:
     {
         const DomainSettings& domain = scene_.domain;
         const std::optional<NarrowAxis> narrow = find_narrow_axis(scene_);
-        if (narrow && (narrow->periodic || !scene_.fluids.empty())) {
+        if (narrow && (narrow->periodic || !fluid_bodies(scene_).empty())) {
             fail(narrow->periodic ? "domain.periodic" : "domain.max", "makes a domain that {}", narrow->complaint);
         }
         for (std::size_t i = 0; i < scene_.fluids.size(); ++i) {
@@ -190,8 +192,8 @@ private:
 
     void check_fluids() const
     {
-        if (scene_.fluids.empty() && scene_.solids.empty() && scene_.surfaces.empty()) {
-            fail("fluid", "is missing: a scene has at least one [[fluid]], [[solid]] or [[surface]]");
+        if (scene_.fluids.empty() && scene_.solids.empty() && scene_.emitters.empty() && scene_.surfaces.empty()) {
+            fail("fluid", "is missing: a scene has at least one [[fluid]], [[solid]], [[emitter]] or [[surface]]");
         }
         check_filled("fluid", scene_.fluids);
         check_filled("solid", scene_.solids);
@@ -200,13 +202,78 @@ private:
         }
     }
 
+    void check_flow() const
+    {
+        check_number("emitter", scene_.emitters.size(), shared::MAX_EMITTERS);
+        check_number("sink", scene_.sinks.size(), shared::MAX_SINKS);
+        for (std::size_t i = 0; i < scene_.emitters.size(); ++i) {
+            const EmitterBody& emitter = scene_.emitters[i];
+            const std::string prefix = fmt::format("emitter.{}.", i);
+            if (is_flat() && emitter.velocity.z != 0.0f) {
+                fail(prefix + "velocity", "is {}, but must have no z where domain.dimensions is 2",
+                     text(emitter.velocity));
+            }
+            if (emitter.stop && *emitter.stop < emitter.start) {
+                fail(prefix + "stop", "is {} s, but must not be before {}start = {} s", *emitter.stop, prefix,
+                     emitter.start);
+            }
+            std::visit([&](const auto& shape) { check_emitter(prefix, emitter, shape); }, emitter.shape);
+        }
+        for (std::size_t i = 0; i < scene_.sinks.size(); ++i) {
+            if (const auto* block = std::get_if<BlockShape>(&scene_.sinks[i].shape)) {
+                check_box(fmt::format("sink.{}.", i), block->min, block->max);
+            }
+        }
+    }
+
+    void check_emitter(const std::string& prefix, const EmitterBody& emitter, const JetShape& jet) const
+    {
+        if (emitter.velocity == glm::vec3(0.0f)) {
+            fail(prefix + "velocity", "is [0, 0, 0], but a jet has a direction and a speed");
+        }
+        check_thickness(prefix + "radius", glm::vec3(2.0f * jet.radius));
+        check_inside(prefix + "center", jet.center, jet.center);
+    }
+
+    void check_emitter(const std::string& prefix, const EmitterBody& emitter, const InflowShape& inflow) const
+    {
+        const std::optional<int> axis = flat_axis(inflow, is_flat());
+        if (!axis) {
+            fail(prefix + "max", "is {}, but must be above {}min = {} in {} but one, in which they are equal",
+                 text(inflow.max), prefix, text(inflow.min), axes());
+        }
+        if (emitter.velocity[*axis] == 0.0f) {
+            fail(prefix + "velocity", "is {}, but must lead through the rectangle, which is flat along {}",
+                 text(emitter.velocity), "xyz"[*axis]);
+        }
+        glm::vec3 extent = extent_of(inflow.min, inflow.max);
+        extent[*axis] = extent[(*axis + 1) % 2]; // any other
+        check_thickness(prefix + "max", is_flat() ? glm::vec3(extent[1 - *axis]) : extent);
+        check_inside(prefix + "min", inflow.min, inflow.max);
+    }
+
+    void check_emitter(const std::string& prefix, const EmitterBody& /*emitter*/, const RainShape& rain) const
+    {
+        const glm::vec3 size = rain.max - rain.min;
+        if (!(size.x >= 0.0f && size.y >= 0.0f && (size.z >= 0.0f || is_flat()))) {
+            fail(prefix + "max", "is {}, but must not be below {}min = {} in {}", text(rain.max), prefix,
+                 text(rain.min), axes());
+        }
+        check_inside(prefix + "min", rain.min, rain.max);
+    }
+
+    void check_number(std::string_view list, std::size_t count, std::size_t most) const
+    {
+        if (count > most) {
+            fail(list, "is there {} times, but a scene has at most {} {}s", count, most, list);
+        }
+    }
+
     /// Bodies that are filled with particles.
     template <class Body>
     void check_filled(std::string_view name, const std::vector<Body>& bodies) const
     {
-        if (bodies.size() > MOST_BODIES) {
-            fail(name, "is there {} times, but a scene has at most {} {}s", bodies.size(), MOST_BODIES, name);
-        }
+        check_number(name, bodies.size(), MOST_BODIES);
         for (std::size_t i = 0; i < bodies.size(); ++i) {
             const std::string prefix = fmt::format("{}.{}.", name, i);
             std::visit([&](const auto& shape) { check_shape(prefix, shape); }, bodies[i].shape);
@@ -233,9 +300,7 @@ private:
     template <class Body>
     void check_plates(std::string_view name, const std::vector<Body>& bodies) const
     {
-        if (bodies.size() > MOST_BODIES) {
-            fail(name, "is there {} times, but a scene has at most {} {}s", bodies.size(), MOST_BODIES, name);
-        }
+        check_number(name, bodies.size(), MOST_BODIES);
         for (std::size_t i = 0; i < bodies.size(); ++i) {
             if (const auto* block = std::get_if<BlockShape>(&bodies[i].shape)) {
                 check_plate(fmt::format("{}.{}.", name, i), *block);
@@ -298,10 +363,13 @@ private:
         const auto fluid = std::ranges::find(materials.of_fluid, shared::MAX_MATERIALS);
         const auto collider = std::ranges::find(materials.of_collider, shared::MAX_MATERIALS);
         const auto solid = std::ranges::find(materials.of_solid, shared::MAX_MATERIALS);
+        const auto emitter = std::ranges::find(materials.of_emitter, shared::MAX_MATERIALS);
         const std::string first_beyond =
             fluid != materials.of_fluid.end()   ? fmt::format("fluid.{}", fluid - materials.of_fluid.begin())
             : solid != materials.of_solid.end() ? fmt::format("solid.{}", solid - materials.of_solid.begin())
-                                                : fmt::format("collider.{}", collider - materials.of_collider.begin());
+            : emitter != materials.of_emitter.end()
+                ? fmt::format("emitter.{}", emitter - materials.of_emitter.begin())
+                : fmt::format("collider.{}", collider - materials.of_collider.begin());
         fail(first_beyond,
              "makes {} different materials (fluids by rest density and color, colliders by friction and color, solids "
              "by both), but a "
@@ -352,6 +420,19 @@ private:
 };
 
 } // namespace
+
+std::optional<int> flat_axis(const InflowShape& inflow, bool is_in_plane)
+{
+    const glm::vec3 size = inflow.max - inflow.min;
+    std::optional<int> flat;
+    for (int axis = 0; axis < (is_in_plane ? 2 : 3); ++axis) {
+        if (size[axis] < 0.0f || (size[axis] == 0.0f && flat)) {
+            return std::nullopt;
+        }
+        flat = size[axis] == 0.0f ? axis : flat;
+    }
+    return flat;
+}
 
 std::optional<NarrowAxis> find_narrow_axis(const Scene& scene)
 {

@@ -26,4 +26,8 @@ struct NarrowAxis {
 };
 [[nodiscard]] std::optional<NarrowAxis> find_narrow_axis(const Scene& scene);
 
+/// The axis along which the rectangle of an inflow is flat; none where it is no rectangle. In the plane z does not
+/// count.
+[[nodiscard]] std::optional<int> flat_axis(const InflowShape& inflow, bool is_in_plane);
+
 } // namespace meltpoint

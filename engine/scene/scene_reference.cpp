@@ -90,6 +90,16 @@ std::string_view about(std::string_view list)
                "fluids come first, then solids in the order of the file. Here the keys of every solid; then those of "
                "its shape.";
     }
+    if (list == "emitter") {
+        return "Once for each place where fluid comes into the scene while it runs, if any, at most 16. A particle "
+               "comes "
+               "only where none is nearer than 0.85 spacings, so an emitter under water brings as much as flows off. "
+               "Here the keys of every emitter; then those of its shape.";
+    }
+    if (list == "sink") {
+        return "Once for each place where fluid and dust go out, if any, at most 16. Here the keys of every sink; then "
+               "those of its shape.";
+    }
     if (list == "collider") {
         return "Once for each solid that stands in the fluid's way, if any. What of it lies outside the domain is cut "
                "off. A block that is flat along one axis is a plate. A mesh may also be a scan: a file of points "

@@ -15,14 +15,15 @@ Dust::Dust(const gpu::Context& context, const shared::DustParams& params)
     gpu::upload<shared::DustParams>(context, params_, {&params, 1});
 }
 
-void Dust::record(gpu::Commands& commands, const Fluid& fluid, const gpu::Buffer& release_time, float start) const
+void Dust::record(gpu::Commands& commands, const Fluid& fluid, const gpu::Buffer& release_time,
+                  const gpu::Buffer& ledger, float start) const
 {
     const ParticleBuffers& particles = fluid.particles;
     const gpu::Scope scope(commands, "dust");
     commands.dispatch(drift_, particles.moving, start,
                       {read(fluid.params), read(params_), read(fluid.time.state()), read(particles.id),
                        read(release_time), read_write(particles.attributes), read_write(particles.position),
-                       read_write(particles.velocity), write(particles.density)});
+                       read_write(particles.velocity), write(particles.density), read_write(ledger)});
 }
 
 } // namespace meltpoint::sim

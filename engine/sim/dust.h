@@ -13,7 +13,8 @@ public:
 
     /// Moves dust by the step that has just been taken. release_time: s since the start, by id; `start`: s since the
     /// start when TimeStep::elapsed was 0.
-    void record(gpu::Commands& commands, const Fluid& fluid, const gpu::Buffer& release_time, float start) const;
+    void record(gpu::Commands& commands, const Fluid& fluid, const gpu::Buffer& release_time, const gpu::Buffer& ledger,
+                float start) const;
 
 private:
     gpu::Kernel drift_;

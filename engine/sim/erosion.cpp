@@ -28,10 +28,14 @@ void Erosion::record_look(gpu::Commands& commands, const gpu::Buffer& params, co
                        read_write(particles.velocity), read_write(particles.position), read_write(changes_)});
     commands.dispatch(count_dead_, particles.moving, gpu::NoPush{},
                       {read(params), read(particles.attributes), read_write(changes_)});
+}
+
+void Erosion::record_readback(gpu::Commands& commands) const
+{
     commands.copy(changes_, readback_, sizeof(shared::PoolChanges));
 }
 
-shared::PoolChanges Erosion::changes() const
+shared::PoolChanges Erosion::found() const
 {
     return readback_.mapped<shared::PoolChanges>()[0];
 }

@@ -11,8 +11,8 @@
 
 namespace meltpoint::sim {
 
-/// What turns solid particles into fluid or dust. They are among the still particles; the simulation parts the pool
-/// anew after some were freed.
+/// What turns solid particles into fluid or dust, and counts who changes sides in the pool. Solids are among the still
+/// particles; the simulation parts the pool anew after some were freed, have died or were called up.
 class Erosion {
 public:
     /// Steps from one look at the solids to the next. Parting a pool takes as long as a step of a fluid a fifth of its
@@ -30,8 +30,12 @@ public:
     /// counts the dead, which lie among the moving ones yet.
     void record_look(gpu::Commands& commands, const gpu::Buffer& params, const ParticleBuffers& particles,
                      float time) const;
+    /// After all of the look's passes: brings what they have found to the host.
+    void record_readback(gpu::Commands& commands) const;
     /// What the last look has found: after its commands are done.
-    [[nodiscard]] shared::PoolChanges changes() const;
+    [[nodiscard]] shared::PoolChanges found() const;
+    /// shared::PoolChanges, for other passes of a look to count in.
+    [[nodiscard]] const gpu::Buffer& changes() const { return changes_; }
 
     /// s, by id.
     [[nodiscard]] const gpu::Buffer& release_time() const { return release_time_; }

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstddef>
 #include <limits>
+#include <numeric>
 #include <stdexcept>
 #include <string_view>
 
@@ -93,6 +94,7 @@ Simulation::Simulation(const gpu::Context& context, const ParticleSet& particles
       readback_(context, sizeof(Readback), gpu::MemoryUse::Readback, "readback"), time_(context, params_),
       vorticity_(context, settings.options, params_.pool_count), commands_(std::make_unique<gpu::Commands>(context))
 {
+    dt_limit_ = params_.dt;
     particles_.moving = params_.moving_count;
     upload(context, particles, particles_);
     gpu::upload<shared::SphParams>(context, params_buffer_, {&params_, 1});
@@ -114,8 +116,12 @@ Simulation::Simulation(const gpu::Context& context, const ParticleSet& particles
         }
         erosion_.emplace(context, particles.release_time);
         erosion_commands_ = std::make_unique<gpu::Commands>(context);
+        gone_ = static_cast<std::uint32_t>(std::ranges::count_if(particles.attributes, shared::is_gone));
         if (settings.dust) {
             dust_.emplace(context, *settings.dust);
+        }
+        if (settings.dust || !settings.emission.empty()) { // the ledger is that of dust, too
+            emission_.emplace(context, settings.emission);
         }
     }
     solver_->record_start(*commands_, fluid());
@@ -126,6 +132,17 @@ Simulation::Simulation(const gpu::Context& context, const ParticleSet& particles
 std::uint32_t Simulation::steps_a_submission() const
 {
     return std::clamp(particle_steps_per_submission / std::max(params_.moving_count, 1u), 1u, max_steps_per_submission);
+}
+
+double Simulation::longest_time(std::uint32_t steps) const
+{
+    double sum = 0.0;
+    float limit = dt_limit_;
+    for (std::uint32_t i = 0; i < steps; ++i) {
+        limit = time_.adaptive() ? std::min(params_.longest_dt, limit * shared::TIME_STEP_GROWTH) : params_.dt;
+        sum += static_cast<double>(limit * (1.0f + shared::LANDING_TOLERANCE));
+    }
+    return sum;
 }
 
 std::uint32_t Simulation::steps_until_erosion() const
@@ -140,14 +157,25 @@ void Simulation::erode(double time)
     }
     gpu::Commands& commands = *erosion_commands_;
     commands.begin();
+    const std::uint32_t interval = Erosion::interval(params_.pool_count, params_.moving_count);
+    next_erosion_ = step_ + interval;
     erosion_->record_look(commands, params_buffer_, particles_, static_cast<float>(time));
+    if (emission_) {
+        emission_->record_calls(commands, params_buffer_, particles_, erosion_->release_time(), erosion_->changes(),
+                                gone_, time + longest_time(interval));
+    }
+    erosion_->record_readback(commands);
     commands.submit();
     commands.wait();
-    const auto [freed, died] = erosion_->changes();
-    params_.moving_count += freed - died;
+    const shared::PoolChanges found = erosion_->found();
+    const std::uint32_t called = std::accumulate(std::begin(found.called), std::end(found.called), 0u);
+    if (emission_) {
+        emission_->note_called(found);
+    }
+    params_.moving_count += found.freed + called - found.died;
     particles_.moving = params_.moving_count;
-    next_erosion_ = step_ + Erosion::interval(params_.pool_count, params_.moving_count);
-    if (freed == 0 && died == 0) {
+    gone_ += found.died - called;
+    if (found.freed + found.died + called == 0) {
         return;
     }
     commands.begin();
@@ -172,9 +200,12 @@ Simulation::Readback Simulation::submit_steps(std::uint32_t steps, double start)
     const double fixed_dt = time_.adaptive() ? 0.0 : static_cast<double>(params_.dt);
     for (std::uint32_t i = 0; i < steps; ++i) {
         solver_->record_step(*commands_, fluid(), static_cast<std::uint32_t>(step_ + i));
+        const auto at = static_cast<float>(start + (i + 1) * fixed_dt);
         if (dust_) {
-            dust_->record(*commands_, fluid(), erosion_->release_time(),
-                          static_cast<float>(start + (i + 1) * fixed_dt));
+            dust_->record(*commands_, fluid(), erosion_->release_time(), emission_->ledger(), at);
+        }
+        if (emission_) {
+            emission_->record_step(*commands_, fluid(), erosion_->release_time(), at);
         }
     }
     commands_->copy(status_, readback_, sizeof(shared::Status), 0, offsetof(Readback, status));
@@ -182,6 +213,7 @@ Simulation::Readback Simulation::submit_steps(std::uint32_t steps, double start)
     commands_->submit();
     commands_->wait();
     const Readback seen = readback_.mapped<Readback>()[0];
+    dt_limit_ = seen.time.limit;
     // A time that the device chose is that of the last of these steps.
     const double after = time_.adaptive() ? static_cast<double>(seen.time.elapsed)
                                           : static_cast<double>(seen.status.first_faulty_step - step_) * fixed_dt;
@@ -246,6 +278,7 @@ std::uint64_t Simulation::device_bytes() const
         solver_->device_bytes() + vorticity_.device_bytes() + (viscosity_ ? viscosity_->device_bytes() : 0);
     sum += capillarity_ ? capillarity_->device_bytes() : 0;
     sum += erosion_ ? erosion_->device_bytes() : 0;
+    sum += emission_ ? emission_->device_bytes() : 0;
     sum += boundary_forces_ != nullptr ? boundary_forces_->reactions().size() : 0;
     for (const gpu::Buffer* buffer : {&particles_.id,
                                       &particles_.attributes,
@@ -277,6 +310,16 @@ std::uint64_t Simulation::device_bytes() const
 ParticleSet Simulation::download() const
 {
     return meltpoint::download(*context_, particles_);
+}
+
+shared::Ledger Simulation::ledger() const
+{
+    return emission_ ? gpu::download<shared::Ledger>(*context_, emission_->ledger(), 1)[0] : shared::Ledger{};
+}
+
+std::vector<std::uint64_t> Simulation::missed_births() const
+{
+    return emission_ ? emission_->missed() : std::vector<std::uint64_t>{};
 }
 
 NeighborStatistics Simulation::neighbor_statistics()
@@ -379,7 +422,7 @@ Simulation::BoundaryForceMeans Simulation::take_boundary_forces()
 void Simulation::enable_timings()
 {
     const std::uint32_t scopes = solver_->scopes() + vorticity_.scopes() + (viscosity_ ? 1 : 0) + (shifting_ ? 1 : 0) +
-                                 (capillarity_ ? 1 : 0) + (dust_ ? 1 : 0);
+                                 (capillarity_ ? 1 : 0) + (dust_ ? 1 : 0) + (emission_ ? emission_->scopes() : 0);
     commands_ = std::make_unique<gpu::Commands>(*context_, max_steps_per_submission * scopes);
 }
 

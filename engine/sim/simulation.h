@@ -11,6 +11,7 @@
 #include "particles/particle_set.h"
 #include "shared/sph_params.h"
 #include "sim/dust.h"
+#include "sim/emission.h"
 #include "sim/erosion.h"
 #include "sim/fluid_kernels.h"
 #include "sim/implicit_viscosity.h"
@@ -24,6 +25,7 @@ struct SimulationSettings {
     shared::SphParams params{}; ///< moving_count, pool_count and grid_size are filled in
     FluidOptions options;
     std::optional<shared::DustParams> dust; ///< where some of the solids crumble
+    EmissionSettings emission;
 };
 
 /// The params with the numbers of particles and the grid size filled in: all of them move.
@@ -76,6 +78,11 @@ public:
     /// Counts neighbors on the device, and waits.
     [[nodiscard]] NeighborStatistics neighbor_statistics();
 
+    /// Particles that have come and gone since the start. Waits.
+    [[nodiscard]] shared::Ledger ledger() const;
+    /// Births for which an emitter had no particle left, of each, since the start.
+    [[nodiscard]] std::vector<std::uint64_t> missed_births() const;
+
     /// What the solves of one kind took since the last call, or the start.
     struct SolveStatistics {
         double mean_iterations = 0.0;  ///< a step
@@ -122,11 +129,13 @@ private:
     };
     /// start: s since the start when TimeStep::elapsed is 0; where steps are fixed, when the first of these begins.
     Readback submit_steps(std::uint32_t steps, double start);
-    /// Where a look at the solids is due: those that are due to turn into fluid or dust do, and the pool is parted
-    /// anew. `time` in s since the start.
+    /// Where a look at the solids and the dead is due: those that are due to turn into fluid or dust do, those that are
+    /// to be born soon are called up, and the pool is parted anew. `time` in s since the start.
     void erode(double time);
     /// Throws where there is a fault; `time` of it in s since the start.
     static void check_status(const shared::Status& status, double time);
+    /// s, the longest that so many steps may take from now on.
+    [[nodiscard]] double longest_time(std::uint32_t steps) const;
     [[nodiscard]] std::uint32_t steps_a_submission() const;
     [[nodiscard]] Fluid fluid()
     {
@@ -155,6 +164,7 @@ private:
     std::optional<Capillarity> capillarity_;
     std::optional<Erosion> erosion_;
     std::optional<Dust> dust_;
+    std::optional<Emission> emission_;
     ParticleBuffers particles_;
     NeighborGrid grid_;
     gpu::Buffer params_buffer_;
@@ -167,6 +177,8 @@ private:
     std::unique_ptr<gpu::Commands> erosion_commands_; ///< apart, so that timings() are those of steps
     std::uint64_t step_ = 0;
     std::uint64_t next_erosion_ = 0;    ///< the step before which solids are looked at
+    std::uint32_t gone_ = 0;            ///< particles that are dead and lie behind all others
+    float dt_limit_ = 0.0f;             ///< s, how long the last step might have been
     double seconds_ = 0.0;              ///< since the start
     double wanted_seconds_ = 0.0;       ///< of all calls of advance_by
     std::uint64_t solves_taken_at_ = 0; ///< step of the last take_solve_statistics

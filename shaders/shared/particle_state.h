@@ -15,15 +15,22 @@ SHARED_CONSTANT uint STATE_DEAD = 4u;
 SHARED_CONSTANT uint MATERIAL_SHIFT = 8u;
 SHARED_CONSTANT uint FLAG_LEFT_DOMAIN = 0x10000u; // was outside the domain at least once; never cleared
 SHARED_CONSTANT uint FLAG_CRUMBLES = 0x20000u;   // solid that turns into dust, not fluid
+SHARED_CONSTANT uint FLAG_DUE = 0x40000u;        // dead, and called up to be born soon (shared/emission.h)
 
 SHARED_FUNCTION uint particle_state(uint attributes) { return attributes & 0xffu; } // STATE_*
 SHARED_FUNCTION uint particle_material(uint attributes) { return (attributes >> MATERIAL_SHIFT) & 0xffu; } // its number
 // A boundary particle: no force of the fluid moves it. Fluid meets it where it has a weight: dust and the dead have none.
 SHARED_FUNCTION bool is_boundary(uint attributes) { return particle_state(attributes) != STATE_FLUID; }
-// One that stays where it is. The dead are no longer anywhere, which is the same.
+// One that is nowhere: dead, and not called up.
+SHARED_FUNCTION bool is_gone(uint attributes)
+{
+    return particle_state(attributes) == STATE_DEAD && (attributes & FLAG_DUE) == 0u;
+}
+// One that stays where it is. Those who are gone are no longer anywhere, which is the same.
 SHARED_FUNCTION bool is_still(uint attributes)
 {
-    return is_boundary(attributes) && particle_state(attributes) != STATE_DUST;
+    uint state = particle_state(attributes);
+    return state == STATE_SOLID || state == STATE_COLLIDER || is_gone(attributes);
 }
 SHARED_FUNCTION uint with_state(uint attributes, uint state) { return (attributes & ~0xffu) | state; }
 SHARED_FUNCTION uint pack_attributes(uint state, uint material) { return state | (material << MATERIAL_SHIFT); } // no flags

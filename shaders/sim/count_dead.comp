@@ -13,7 +13,7 @@ layout(set = 0, binding = 2, scalar) buffer Changes { PoolChanges changes; };
 void main()
 {
     uint i = invocation_index();
-    if (i < params.moving_count && particle_state(attributes[i]) == STATE_DEAD) {
+    if (i < params.moving_count && is_gone(attributes[i])) {
         atomicAdd(changes.died, 1u);
     }
 }

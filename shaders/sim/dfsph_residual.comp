@@ -98,6 +98,9 @@ void main()
         [[unroll]] for (uint k = 0u; k < TILE; ++k) {
             uint i = tile.first + k;
             if (i > tile.last || is_boundary(attributes[i])) {
+                if (i <= tile.last) {
+                    warm_start[i][push.solve] = 0.0; // of the dead who may be born again
+                }
                 continue;
             }
             vec4 its_interaction = load_candidate(interaction, i);

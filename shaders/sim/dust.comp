@@ -4,6 +4,7 @@
 // picture, and at the end of its life, or of the domain, it is dead. Twin: engine/reference/dust.cpp.
 #include "include/invocation.glsl"
 #include "shared/dust.h"
+#include "shared/emission.h"
 #include "shared/particle_state.h"
 #include "shared/sph_params.h"
 #include "shared/time_step.h"
@@ -18,6 +19,7 @@ layout(set = 0, binding = 5, scalar) buffer Attributes { uint attributes[]; };
 layout(set = 0, binding = 6, scalar) buffer Position { vec4 position[]; };
 layout(set = 0, binding = 7, scalar) buffer Velocity { vec4 velocity[]; };
 layout(set = 0, binding = 8, scalar) writeonly buffer Density { float density[]; };
+layout(set = 0, binding = 9, scalar) buffer LedgerBuffer { Ledger ledger; };
 
 #include "include/periodic.glsl"
 
@@ -50,5 +52,6 @@ void main()
     density[i] = clamp(left, 0.0, 1.0);
     if (!(inside && left > 0.0)) {
         attributes[i] = with_state(attributes[i], STATE_DEAD);
+        atomicAdd(ledger.sunk, 1u);
     }
 }

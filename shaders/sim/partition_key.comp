@@ -17,7 +17,6 @@ void main()
     if (i < params.pool_count) {
         uint cells = params.grid_size.x * params.grid_size.y * params.grid_size.z;
         uint cell = cell_of(position[i].xyz, params.domain_min, params.support_radius, params.grid_size);
-        bool dead = particle_state(attributes[i]) == STATE_DEAD;
-        key[i] = dead ? 2u * cells : cell + (is_still(attributes[i]) ? cells : 0u);
+        key[i] = is_gone(attributes[i]) ? 2u * cells : cell + (is_still(attributes[i]) ? cells : 0u);
     }
 }

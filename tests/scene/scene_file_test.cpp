@@ -201,7 +201,8 @@ TEST(SceneFile, NamesContradictions)
     EXPECT_EQ(error_with_block("[time]\nframe_rate = 100\ndt = 0.02"),
               "test.toml:3: key \"time.dt\" is 0.02 s, but must be at most the time between two frames, 1/100 s");
     EXPECT_EQ(error_of(""),
-              "test.toml: key \"fluid\" is missing: a scene has at least one [[fluid]], [[solid]] or [[surface]]");
+              "test.toml: key \"fluid\" is missing: a scene has at least one [[fluid]], [[solid]], [[emitter]] or "
+              "[[surface]]");
 }
 
 TEST(SceneFile, TwoDimensionsMeanNothingByZ)
@@ -436,7 +437,7 @@ TEST(SceneFile, NamesBadOverrides)
     EXPECT_EQ(block_with("domain.max=[1,2").find("override \"domain.max=[1,2\""), 0u);
     EXPECT_EQ(block_with("a.b.c=1"), "override \"a.b.c=1\": key \"a.b.c\" is unknown; there is no table \"a.b\"");
     EXPECT_EQ(block_with("fluid=[]"), "override \"fluid=[]\": key \"fluid\" is missing: a scene has at least one "
-                                      "[[fluid]], [[solid]] or [[surface]]");
+                                      "[[fluid]], [[solid]], [[emitter]] or [[surface]]");
     EXPECT_EQ(block_with("fluid.0=3").find("override \"fluid.0=3\": key \"fluid.0\" is unknown"), 0u);
     EXPECT_EQ(block_with("domain.max=[1,0,1]").find("override \"domain.max=[1,0,1]\": key \"domain.max\" is [1, 0, 1]"),
               0u);
@@ -553,6 +554,19 @@ void randomize(Random& random, std::span<const Key<Owner>> keys, Owner& owner, s
     }
 }
 
+/// A shape that no other key forbids.
+template <class Shape>
+void make_possible(Random& random, Shape& shape)
+{
+    if constexpr (std::is_same_v<Shape, BlockShape> || std::is_same_v<Shape, RainShape>) {
+        shape.max = shape.min + 0.7f;
+    } else if constexpr (std::is_same_v<Shape, InflowShape>) {
+        shape.max = shape.min + glm::vec3(0.0f, 0.7f, 0.6f);
+    } else if constexpr (std::is_same_v<Shape, SphereShape> || std::is_same_v<Shape, JetShape>) {
+        shape.radius = 0.1f + static_cast<float>(random.uniform());
+    }
+}
+
 /// Any scene, every key away from its default, as far as keys may not contradict each other.
 Scene random_scene(std::uint64_t seed)
 {
@@ -573,18 +587,17 @@ Scene random_scene(std::uint64_t seed)
             auto& body = bodies.emplace_back();
             keys.front().set(body, {std::string(shape)});
             randomize(random, keys, body, shape);
-            if (auto* block = std::get_if<BlockShape>(&body.shape)) {
-                block->max = block->min + 0.7f;
-            }
-            if (auto* sphere = std::get_if<SphereShape>(&body.shape)) {
-                sphere->radius = 0.1f + static_cast<float>(random.uniform());
-            }
+            std::visit([&](auto& its) { make_possible(random, its); }, body.shape);
         }
     });
     for (std::size_t i = 0; i < scene.solids.size(); ++i) { // a front has one or the other
         DissolveFront& front = scene.solids[i].dissolve;
         front.direction = (i + seed) % 2 == 0 ? front.direction : std::nullopt;
         front.point = (i + seed) % 2 == 0 ? std::nullopt : front.point;
+    }
+    for (EmitterBody& emitter : scene.emitters) {
+        emitter.velocity.x += 3.0f;
+        emitter.stop = emitter.start + 0.3f;
     }
     return scene;
 }
@@ -600,6 +613,8 @@ std::vector<std::string> differences(const Scene& a, const Scene& b)
     }
     EXPECT_EQ(a.fluids.size(), b.fluids.size());
     EXPECT_EQ(a.solids.size(), b.solids.size());
+    EXPECT_EQ(a.emitters.size(), b.emitters.size());
+    EXPECT_EQ(a.sinks.size(), b.sinks.size());
     EXPECT_EQ(a.colliders.size(), b.colliders.size());
     const auto compare_bodies = [&](std::string_view list, const auto& of_a, const auto& of_b, const auto& keys) {
         for (std::size_t i = 0; i < std::min(of_a.size(), of_b.size()); ++i) {
@@ -612,6 +627,8 @@ std::vector<std::string> differences(const Scene& a, const Scene& b)
     };
     compare_bodies("fluid", a.fluids, b.fluids, fluid_keys());
     compare_bodies("solid", a.solids, b.solids, solid_keys());
+    compare_bodies("emitter", a.emitters, b.emitters, emitter_keys());
+    compare_bodies("sink", a.sinks, b.sinks, sink_keys());
     compare_bodies("collider", a.colliders, b.colliders, collider_keys());
     return names;
 }
@@ -695,6 +712,9 @@ TEST(KeyTable, LimitsAreInclusiveAndKept)
 {
     expect_limits(scene_keys());
     expect_limits(fluid_keys());
+    expect_limits(solid_keys());
+    expect_limits(emitter_keys());
+    expect_limits(sink_keys());
     expect_limits(collider_keys());
 }
 
@@ -884,6 +904,66 @@ TEST(SceneFile, ContradictionsOfASolidAreNamed)
               std::string::npos);
     EXPECT_NE(error_of("[domain]\ndimensions = 2\n" + std::string(SOLID) + "dissolve_direction = [0, 1, 1]")
                   .find("must have no z"),
+              std::string::npos);
+}
+
+constexpr std::string_view JET =
+    "[[emitter]]\nshape = \"jet\"\ncenter = [0, 1, 0]\nradius = 0.1\nvelocity = [0, -2, 0]\n";
+
+TEST(Emitters, AreReadWithTheirShapes)
+{
+    const Scene scene =
+        parse(std::string(JET) + "liquid = \"oil\"\nstart = 0.5\nstop = 2\nparticles = 700\n" +
+              "[[emitter]]\nshape = \"rain\"\nmin = [-0.5, 1.5, -0.5]\nmax = [0.5, 1.5, 0.5]\nrate = 2\n" +
+              "[[emitter]]\nshape = \"inflow\"\nmin = [-0.5, 0, -0.5]\nmax = [-0.5, 1, 0.5]\n" +
+              "velocity = [1, 0, 0]\n[[sink]]\nshape = \"sphere\"\ncenter = [0, 0, 0]\nradius = 0.2\n");
+    ASSERT_EQ(scene.emitters.size(), 3u);
+    const EmitterBody& jet = scene.emitters[0];
+    EXPECT_EQ(std::get<JetShape>(jet.shape).radius, 0.1f);
+    EXPECT_EQ(jet.fluid.rest_density, 912.0f);
+    EXPECT_EQ(jet.fluid.color, find_liquid("oil")->color);
+    EXPECT_EQ(jet.velocity, glm::vec3(0.0f, -2.0f, 0.0f));
+    EXPECT_EQ(jet.start, 0.5f);
+    EXPECT_EQ(jet.stop, 2.0f);
+    EXPECT_EQ(jet.particles, 700u);
+    EXPECT_EQ(std::get<RainShape>(scene.emitters[1].shape).rate, 2.0f);
+    EXPECT_EQ(std::get<InflowShape>(scene.emitters[2].shape).max, glm::vec3(-0.5f, 1.0f, 0.5f));
+    EXPECT_FALSE(scene.emitters[2].stop);
+    ASSERT_EQ(scene.sinks.size(), 1u);
+    EXPECT_EQ(std::get<SphereShape>(scene.sinks[0].shape).radius, 0.2f);
+}
+
+TEST(Emitters, MistakesAreNamed)
+{
+    const auto error = [](const std::string& more) {
+        return error_of(std::string(JET) + more);
+    };
+    const auto error_of_inflow = [](const std::string& corner, const std::string& velocity) {
+        return error_of("[[emitter]]\nshape = \"inflow\"\nmin = [0, 0, 0]\nmax = " + corner +
+                        "\nvelocity = " + velocity + "\n");
+    };
+    EXPECT_EQ(error("stop = -1"), "test.toml:6: key \"emitter.0.stop\" is -1, but must be a number from 0 to 1000000 s "
+                                  "or \"auto\"");
+    EXPECT_EQ(error("start = 2\nstop = 1"), "test.toml:7: key \"emitter.0.stop\" is 1 s, but must not be before "
+                                            "emitter.0.start = 2 s");
+    EXPECT_NE(error("min = [0, 0, 0]").find("but this emitter has shape = \"jet\" with the keys center, radius"),
+              std::string::npos);
+    EXPECT_EQ(
+        error_of_inflow("[0, 1, 1]", "[0, 1, 0]"),
+        "test.toml:5: key \"emitter.0.velocity\" is [0, 1, 0], but must lead through the rectangle, which is flat "
+        "along x");
+    EXPECT_NE(error_of_inflow("[1, 1, 1]", "[0, 1, 0]").find("but one, in which they are equal"), std::string::npos);
+    EXPECT_NE(error_of_inflow("[0, 0, 1]", "[0, 1, 0]").find("but one, in which they are equal"), std::string::npos);
+    EXPECT_NE(error_of_inflow("[0, 9, 1]", "[1, 0, 0]").find("inside the domain"), std::string::npos);
+    EXPECT_NE(error_of_inflow("[0, 0.001, 1]", "[1, 0, 0]").find("thin"), std::string::npos);
+    const std::string still = "[[emitter]]\nshape = \"jet\"\ncenter = [0, 1, 0]\nradius = 0.1\n";
+    EXPECT_NE(error_of(still).find("a jet has a direction and a speed"), std::string::npos);
+    std::string many;
+    for (std::size_t i = 0; i < 17; ++i) {
+        many += JET;
+    }
+    EXPECT_NE(error_of(many).find("is there 17 times, but a scene has at most 16 emitters"), std::string::npos);
+    EXPECT_NE(error_of(std::string(JET) + "[[sink]]\nshape = \"mesh\"\n").find("\"block\" or \"sphere\""),
               std::string::npos);
 }
 
