@@ -53,7 +53,7 @@ Emission::Emission(const gpu::Context& context, EmissionSettings settings)
       points_(upload_list(context, settings_.points, "nozzle points")),
       sinks_(upload_list(context, settings_.sinks, "sinks")),
       ledger_(gpu::make_buffer<shared::Ledger>(context, 1, "ledger")), next_birth_(settings_.emitters.size(), 0),
-      wanted_(settings_.emitters.size(), 0), missed_(settings_.emitters.size(), 0)
+      missed_(settings_.emitters.size(), 0)
 {
     if (settings_.emitters.size() > shared::MAX_EMITTERS || settings_.sinks.size() > shared::MAX_SINKS) {
         throw std::logic_error("Emission: too many emitters or sinks");
@@ -64,19 +64,20 @@ Emission::Emission(const gpu::Context& context, EmissionSettings settings)
 
 void Emission::record_calls(gpu::Commands& commands, const gpu::Buffer& params, const ParticleBuffers& particles,
                             const gpu::Buffer& release_time, const gpu::Buffer& changes, std::uint32_t gone,
-                            double horizon)
+                            double time, double horizon)
 {
     const gpu::Scope scope(commands, "calls");
     for (std::uint32_t e = 0; e < settings_.emitters.size(); ++e) {
         const shared::Emitter& emitter = settings_.emitters[e];
+        const std::uint32_t past = std::max(births_until(emitter, time), emitter.points) - emitter.points;
+        missed_[e] += past > next_birth_[e] ? past - next_birth_[e] : 0;
+        next_birth_[e] = std::max(next_birth_[e], past);
         // The last look may have looked farther ahead, where steps have become shorter since.
         const std::uint32_t until = std::max(births_until(emitter, horizon), next_birth_[e]);
         const shared::Call call{.emitter = e,
                                 .first_birth = next_birth_[e],
                                 .births = std::min(until - next_birth_[e], emitter.slots),
                                 .first_dead = particles.count - gone};
-        wanted_[e] = until - next_birth_[e];
-        next_birth_[e] = until;
         if (call.births > 0) {
             commands.dispatch(call_up_, call.births, call,
                               {read(params), read(emitters_), read(points_), read(particles.id),
@@ -88,8 +89,8 @@ void Emission::record_calls(gpu::Commands& commands, const gpu::Buffer& params, 
 
 void Emission::note_called(const shared::PoolChanges& changes)
 {
-    for (std::size_t e = 0; e < missed_.size(); ++e) {
-        missed_[e] += wanted_[e] - changes.called[e];
+    for (std::size_t e = 0; e < next_birth_.size(); ++e) {
+        next_birth_[e] += changes.called[e];
     }
 }
 

@@ -31,11 +31,13 @@ public:
     /// Throws std::logic_error where there are too many of either.
     Emission(const gpu::Context& context, EmissionSettings settings);
 
-    /// At a look: calls up dead slots for the births up to `horizon` (s since the start), counted in
-    /// shared::PoolChanges::called. `gone`: how many particles are dead and not called up, the last ones of the pool.
+    /// At a look at `time` (s since the start): calls up dead slots for the births up to `horizon`, counted in
+    /// shared::PoolChanges::called. Those long past for which there was no slot are given up. `gone`: how many
+    /// particles are dead and not called up, the last ones of the pool.
     void record_calls(gpu::Commands& commands, const gpu::Buffer& params, const ParticleBuffers& particles,
-                      const gpu::Buffer& release_time, const gpu::Buffer& changes, std::uint32_t gone, double horizon);
-    /// After the look: notes for how many births there was no slot.
+                      const gpu::Buffer& release_time, const gpu::Buffer& changes, std::uint32_t gone, double time,
+                      double horizon);
+    /// After the look: notes which births are still to be called up.
     void note_called(const shared::PoolChanges& changes);
 
     /// After a step that ends `start` s after TimeControl's elapsed time was 0: births, and what is in sinks is dead.
@@ -60,7 +62,6 @@ private:
     gpu::Buffer sinks_;
     gpu::Buffer ledger_;
     std::vector<std::uint32_t> next_birth_; ///< of each emitter
-    std::vector<std::uint32_t> wanted_;     ///< births that the last look called for
     std::vector<std::uint64_t> missed_;
 };
 

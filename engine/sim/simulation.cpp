@@ -162,7 +162,7 @@ void Simulation::erode(double time)
     erosion_->record_look(commands, params_buffer_, particles_, static_cast<float>(time));
     if (emission_) {
         emission_->record_calls(commands, params_buffer_, particles_, erosion_->release_time(), erosion_->changes(),
-                                gone_, time + longest_time(interval));
+                                gone_, time, time + longest_time(interval));
     }
     erosion_->record_readback(commands);
     commands.submit();

@@ -112,6 +112,7 @@ void main()
             float at_surface_j = surface_share(normal_j.xyz, params.support_radius);
             float counts = normal_j.w > 0.0 ? 1.0 : 0.0;
             float loose_j = looseness(volume_j);
+            float density_j = velocity_j.w > 0.0 ? velocity_j.w / volume_j : 0.0; // dust has neither mass nor volume
             [[unroll]] for (uint k = 0u; k < TILE; ++k) {
                 vec3 offset = xj - x[k];
                 float r2 = dot(offset, offset);
@@ -128,7 +129,7 @@ void main()
                 float cling = max(loose[k], loose_j) * 4.0 * apart * (1.0 - apart);
                 float push = mean_sigma * crowding * (max(1.0 - r / crowding_distance, 0.0) - cling);
                 image_force[k] -= has_direction(r2, size) ? push / r * offset : vec3(0.0);
-                float mean_density = 0.5 * (density[k] + max(velocity_j.w, 0.0) / volume_j);
+                float mean_density = 0.5 * (density[k] + density_j);
                 float drag = SURFACE_DRAG * sqrt(mean_sigma * mean_density * params.spacing) * max(at_surface[k], at_surface_j);
                 float laplacian = params.viscosity_scale * force_shapes(r2, size).y;
                 image_force[k] += drag * volume[k] * volume_j * laplacian * (velocity_j.xyz - v[k]);

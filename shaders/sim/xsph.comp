@@ -60,8 +60,8 @@ void main()
         FOR_EACH_NEIGHBOR(tile, walk, x, chunks, bits) {
             uint j = chunks.first + findLSB(bits);
             vec3 xj = load_candidate(position, j).xyz;
-            vec4 vj = load_candidate(velocity, j); // boundary particles have no mass
-            float density_j = max(vj.w, 0.0) / load_candidate(interaction, j).y;
+            vec4 vj = load_candidate(velocity, j); // w: boundary particles respond with none, dust has no volume either
+            float density_j = vj.w > 0.0 ? vj.w / load_candidate(interaction, j).y : 0.0;
             [[unroll]] for (uint k = 0u; k < TILE; ++k) {
                 vec3 offset = x[k] - xj;
                 float share = max(vj.w, 0.0) / (density[k] + density_j) * density_shape(dot(offset, offset), size);

@@ -109,9 +109,24 @@ TEST_F(DustTest, StepsThatTheDeviceChoosesKeepItsTime)
 
 TEST_F(DustTest, NoFluidFeelsIt)
 {
-    for (const std::uint32_t solver : {shared::SOLVER_WCSPH, shared::SOLVER_DFSPH, shared::SOLVER_PBF}) {
-        SCOPED_TRACE(solver);
+    int round = 0;
+    for (const std::uint32_t solver :
+         {shared::SOLVER_WCSPH, shared::SOLVER_DFSPH, shared::SOLVER_PBF, shared::SOLVER_DFSPH, shared::SOLVER_WCSPH}) {
+        SCOPED_TRACE(++round);
         sim::SimulationSettings its = settings(solver);
+        if (round > 2) { // and with all that passes may do besides
+            its.options.xsph = its.options.confinement = true;
+            its.params.xsph = 0.02f;
+            its.params.vorticity_confinement = 0.1f;
+            its.options.mixed_viscosity = true;
+            its.params.viscosity[1] = 3.0f;
+        }
+        if (round > 3) {
+            its = with_tension(its);
+            its.options.implicit_viscosity = true;
+            its.options.shifting = true;
+            its.params.shifting = 1e-4f;
+        }
         its.params.dt = solver == shared::SOLVER_WCSPH ? 2e-4f : 1e-3f;
         ParticleSet seen[2];
         for (const bool dusty : {false, true}) {
@@ -131,9 +146,10 @@ TEST_F(DustTest, NoFluidFeelsIt)
             seen[dusty ? 1 : 0] = simulation.download();
             EXPECT_EQ(count(seen[dusty ? 1 : 0], shared::STATE_FLUID), fluid);
         }
+        const float rounding = its.options.implicit_viscosity ? 1e-5f : 0.0f; // of its sums over all that move
         for (std::size_t i = 0; i < seen[0].size(); ++i) {
-            EXPECT_EQ(seen[0].position[i], seen[1].position[i]) << "particle " << i;
-            EXPECT_EQ(seen[0].velocity[i], seen[1].velocity[i]);
+            EXPECT_LE(glm::distance(seen[0].position[i], seen[1].position[i]), rounding) << "particle " << i;
+            EXPECT_LE(glm::distance(seen[0].velocity[i], seen[1].velocity[i]), 10.0f * rounding);
         }
     }
 }

@@ -114,9 +114,12 @@ TEST_F(EmissionTest, BirthsAndSinksAreTheTwins)
             const double horizon = step * dt + interval * dt * (1.0 + static_cast<double>(shared::LANDING_TOLERANCE));
             for (std::size_t e = 0; e < next.size(); ++e) {
                 const shared::Emitter& emitter = its.emission.emitters[e];
+                const std::uint32_t past =
+                    std::max(sim::births_until(emitter, step * dt), emitter.points) - emitter.points;
+                next[e] = std::max(next[e], past);
                 const std::uint32_t until = std::max(sim::births_until(emitter, horizon), next[e]);
-                (void)reference::call_up(twin, emitter, its.emission.points, next[e], until - next[e], gone, birth);
-                next[e] = until;
+                next[e] += static_cast<std::uint32_t>(
+                    reference::call_up(twin, emitter, its.emission.points, next[e], until - next[e], gone, birth));
             }
             for (std::size_t i = 0; i < twin.size(); ++i) {
                 gone[i] = shared::is_gone(twin.attributes[i]);
