@@ -745,8 +745,8 @@ mutation "dust: it never dies" \
     conformance_tests 'DustTest.EndsWithItsLifeOrTheDomain'
 mutation "dust: the dead go on moving with the others" \
     shaders/sim/partition_key.comp \
-    'dead ? 2u * cells : cell' \
-    'false ? 2u * cells : cell' \
+    'is_gone(attributes[i]) ? 2u * cells' \
+    'false ? 2u * cells' \
     conformance_tests '*PassConformance.StillParticles/OnACollider*'
 mutation "dust: eddies may go along their own waves" \
     engine/run/dust_params.cpp \
@@ -763,6 +763,66 @@ mutation "solids: fronts go on where they should come from" \
     'way[i] - entry + ' \
     'way[i] + ' \
     unit_tests 'DissolveFront.*'
+mutation "emitters: births are where their nozzle is, whenever in a step they came" \
+    shaders/sim/birth.comp \
+    'birth_position(position[i].xyz, velocity[i].xyz, release_time[id[i]], time)' \
+    'position[i].xyz' \
+    conformance_tests 'EmissionTest.BirthsAndSinksAreTheTwins'
+mutation "emitters: one takes the slots of another" \
+    shaders/sim/call_up.comp \
+    'first_dead_from(emitter.first_id) + k' \
+    'call.first_dead + k' \
+    conformance_tests 'EmissionTest.BirthsAndSinksAreTheTwins'
+mutation "emitters: births come on top of others" \
+    shaders/sim/birth_place.comp \
+    '(xj.w > 0.0 || comes_first)' \
+    'comes_first' \
+    conformance_tests 'EmissionTest.ComesNowhereNearOthers'
+mutation "emitters: births come on top of each other" \
+    shaders/sim/birth_place.comp \
+    '(xj.w > 0.0 || comes_first)' \
+    'xj.w > 0.0' \
+    conformance_tests 'EmissionTest.OfTwoWhoComeAtOnceToOnePlaceTheFirstIsBorn'
+mutation "emitters: periodic borders hide who is near" \
+    shaders/sim/birth_place.comp \
+    'shifted && has_image(image, borders)' \
+    'image == 0u' \
+    conformance_tests 'EmissionTest.AcrossPeriodicBorders*'
+mutation "emitters: steps know nothing of who is to be born" \
+    shaders/sim/fastest.comp \
+    'is_due || !is_boundary' \
+    '!is_boundary' \
+    conformance_tests 'EmissionTest.StepsAreShortEnoughForWhoIsBornInThem'
+mutation "emitters: births without a slot are tried for ever" \
+    engine/sim/emission.cpp \
+    'next_birth_[e] = std::max(next_birth_[e], past);' \
+    '' \
+    conformance_tests 'EmissionTest.BirthsAndSinksAreTheTwins'
+mutation "emitters: a nozzle brings a tenth too much" \
+    engine/run/emission_settings.cpp \
+    '(layer.area * layer.speed)' \
+    '(1.1 * layer.area * layer.speed)' \
+    unit_tests 'EmissionSettings.*'
+mutation "emitters: rain falls in step" \
+    engine/run/emission_settings.cpp \
+    'emitter.jitter = 1.0f;' \
+    'emitter.jitter = 0.0f;' \
+    unit_tests 'EmissionSettings.RainFallsAtItsRateEverywhere'
+mutation "sinks: spheres are boxes" \
+    shaders/sim/sink.comp \
+    'distance(x, sink.low) <= sink.high.x' \
+    'all(lessThanEqual(abs(x - sink.low), vec3(sink.high.x)))' \
+    conformance_tests 'EmissionTest.BirthsAndSinksAreTheTwins'
+mutation "sinks: what they take is not in the books" \
+    shaders/sim/sink.comp \
+    'atomicAdd(ledger.sunk, 1u);' \
+    '' \
+    conformance_tests 'EmissionTest.EveryStepsBooksBalanceWithEverySolver'
+mutation "xsph: dust has no volume to divide by" \
+    shaders/sim/xsph.comp \
+    'vj.w > 0.0 ? vj.w / load_candidate(interaction, j).y : 0.0' \
+    'max(vj.w, 0.0) / load_candidate(interaction, j).y' \
+    conformance_tests 'DustTest.NoFluidFeelsIt'
 mutation "solve: all of an excess is taken away, however short the step" \
     shaders/shared/solve.h \
     'return dt < correction_time ? dt / correction_time : 1.0f' \

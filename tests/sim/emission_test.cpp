@@ -274,6 +274,40 @@ TEST_F(EmissionTest, RerunsAreBitIdentical)
     EXPECT_NE(count(seen[0], shared::STATE_FLUID), 400u); // something happened
 }
 
+TEST_F(EmissionTest, OfTwoWhoComeAtOnceToOnePlaceTheFirstIsBorn)
+{
+    sim::SimulationSettings its = settings();
+    its.params.gravity = glm::vec3(0.0f);
+    ParticleSet start;
+    add_jet(its, start, {0.1f, 0.4f, 0.4f}, {2.0f, 0.0f, 0.0f}, 2, 100);
+    for (std::size_t i = 1; i < its.emission.points.size(); ++i) { // all four within a third of a spacing
+        its.emission.points[i] = its.emission.points[0] + glm::vec3(0.0f, 0.0f, 0.1f * test_spacing * static_cast<float>(i));
+    }
+    sim::Simulation simulation(context(), start, its);
+    simulation.advance(50); // 0.1 s: four layers
+    EXPECT_EQ(simulation.ledger().emitted, 4u);
+    const ParticleSet found = simulation.download();
+    for (std::size_t i = 0; i < found.size(); ++i) {
+        if (shared::particle_state(found.attributes[i]) == shared::STATE_FLUID) {
+            EXPECT_EQ(found.position[i].z, 0.4f); // that of the first point
+        }
+    }
+}
+
+TEST_F(EmissionTest, StepsAreShortEnoughForWhoIsBornInThem)
+{
+    sim::SimulationSettings its = settings();
+    its.params.adaptive_dt = 1;
+    its.params.cfl_length = 0.4f * test_spacing;
+    its.params.longest_dt = 5e-3f;
+    its.params.longest_move = 0.5f * its.params.support_radius;
+    ParticleSet start = lattice_state({1, 1, 1}, glm::vec3(0.5f)); // falls, slowly yet
+    add_jet(its, start, {0.1f, 0.4f, 0.4f}, {20.0f, 0.0f, 0.0f}, 1, 100); // 0.1 m in the longest step
+    sim::Simulation simulation(context(), start, its);
+    EXPECT_NO_THROW(simulation.advance_by(0.03));
+    EXPECT_GT(simulation.ledger().emitted, 8u);
+}
+
 TEST_F(EmissionTest, AcrossPeriodicBordersTooNothingComesNearOthers)
 {
     sim::SimulationSettings its = settings();
