@@ -7,12 +7,14 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <numeric>
 #include <vector>
 
 #include <glm/glm.hpp>
 
 #include "core/error.h"
 #include "shared/capillarity.h"
+#include "shared/exposure.h"
 #include "shared/pbf.h"
 
 namespace meltpoint {
@@ -225,6 +227,25 @@ PairViscosity pair_viscosity(double support_radius, double spacing, std::uint32_
     constexpr double most_taper = 2.0;
     const double taper = std::clamp((mean.x - shear.x) / (shear.y - mean.y), least_taper, most_taper);
     return {.scale = (n + 2.0) / (std::pow(spacing, n + 2.0) * (mean.x + taper * mean.y)), .taper = taper};
+}
+
+double exposed_area_scale(std::uint32_t dimensions)
+{
+    // Of a particle with so many layers of the lattice above it, |sum_j q (1-q)^3 x_ij / r_ij|: a whole ball of
+    // neighbors has none of it, so what it has are those that the layers farther up would have had.
+    const auto ratio = static_cast<double>(shared::EXPOSURE_SUPPORT);
+    std::vector<double> layers(static_cast<std::size_t>(ratio) + 1, 0.0);
+    for_each_lattice_site(ratio, dimensions, [&](const glm::dvec3& site, double r) {
+        for (std::size_t above = 0; static_cast<double>(above) < site.y; ++above) {
+            layers[above] += gradient_shape(shared::KERNEL_WENDLAND, r / ratio) * site.y / r;
+        }
+    });
+    const double all = std::accumulate(layers.begin(), layers.end(), 0.0);
+    double exposed = 0.0;
+    for (const double layer : layers) {
+        exposed += layer > static_cast<double>(shared::LEAST_EXPOSURE) * all ? layer : 0.0;
+    }
+    return 1.0 / exposed;
 }
 
 double wall_viscosity_integral(std::uint32_t kernel, double distance, double support_radius, std::uint32_t dimensions)

@@ -95,6 +95,10 @@ struct LayerSteepness {
 [[nodiscard]] LayerSteepness surface_layers(std::uint32_t kernel, double support_radius, double spacing,
                                             std::uint32_t dimensions = 3);
 
+/// ExposurePush::area_scale (shared/exposure.h), such that the exposed areas of a lattice with a flat face along its
+/// axes add up to that face.
+[[nodiscard]] double exposed_area_scale(std::uint32_t dimensions = 3);
+
 inline constexpr double MIN_SUPPORT_RATIO = 1.2; ///< below, a lattice has hardly any neighbors left
 inline constexpr double MAX_SUPPORT_RATIO = 8.0; ///< above, a particle has more than 2100 neighbors
 

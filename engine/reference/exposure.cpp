@@ -1,0 +1,66 @@
+#include "reference/exposure.h"
+
+#include "core/parallel_for.h"
+#include "particles/sph_kernel.h"
+#include "reference/cells.h"
+#include "shared/exposure.h"
+
+namespace meltpoint::reference {
+
+namespace {
+
+bool is_solid(const State& state, std::size_t i)
+{
+    return shared::particle_state(state.attributes[i]) == shared::STATE_SOLID;
+}
+
+bool counts(const State& state, std::size_t j)
+{
+    return is_solid(state, j) || shared::particle_state(state.attributes[j]) == shared::STATE_COLLIDER;
+}
+
+/// Of the face of a lattice cell, m^2.
+double cell_face(const shared::SphParams& params)
+{
+    return static_cast<double>(params.lattice_volume) / static_cast<double>(params.spacing);
+}
+
+} // namespace
+
+std::vector<glm::dvec4> exposure_of_all(const Settings& settings, const State& state)
+{
+    shared::SphParams params = settings.params;
+    params.support_radius = shared::EXPOSURE_SUPPORT * params.spacing;
+    const double support_radius = static_cast<double>(params.support_radius);
+    const double scale = exposed_area_scale(settings.dimensions) * cell_face(params);
+    const Neighbors neighbors = find_neighbors(params, state.position);
+    std::vector<glm::dvec4> exposed(state.size(), glm::dvec4(0.0));
+    parallel_for(state.size(), [&](std::size_t i) {
+        glm::dvec3 sum(0.0);
+        for (const Neighbor& neighbor : neighbors.of(i)) {
+            const glm::dvec3 offset =
+                state.position[i] - reflect_position(params, neighbor.reflection, state.position[neighbor.index]);
+            const double r = glm::length(offset);
+            if (is_solid(state, i) && counts(state, neighbor.index) && r > 0.0) {
+                sum += state.weight[neighbor.index] * gradient_shape(shared::KERNEL_WENDLAND, r / support_radius) *
+                       offset / r;
+            }
+        }
+        if (const double size = glm::length(sum); size > 0.0) {
+            exposed[i] = glm::dvec4(sum / size, scale * size);
+        }
+    });
+    return exposed;
+}
+
+std::vector<glm::dvec4> exposure(const Settings& settings, const State& state)
+{
+    std::vector<glm::dvec4> exposed = exposure_of_all(settings, state);
+    for (glm::dvec4& each : exposed) {
+        const bool inside = each.w < static_cast<double>(shared::LEAST_EXPOSURE) * cell_face(settings.params);
+        each = inside ? glm::dvec4(0.0) : each;
+    }
+    return exposed;
+}
+
+} // namespace meltpoint::reference

@@ -1,0 +1,44 @@
+#include "sim/exposure.h"
+
+#include <algorithm>
+
+#include "particles/sph_kernel.h"
+#include "shared/exposure.h"
+#include "spirv/sim/exposure.comp.h"
+
+namespace meltpoint::sim {
+
+namespace {
+
+constexpr std::uint32_t particles_a_dispatch = 1u << 18; // a third of a second on a software device
+
+} // namespace
+
+Exposure::Exposure(const gpu::Context& context, const FluidOptions& options, std::uint32_t pool)
+    : kernel_(context, "exposure", sim_exposure_comp, fluid_constants(context.info(), options)),
+      exposure_(gpu::make_buffer<glm::vec4>(context, pool, "exposure")),
+      area_scale_(static_cast<float>(exposed_area_scale(options.dimensions)))
+{
+}
+
+void Exposure::record_start(gpu::Commands& commands) const
+{
+    commands.fill(exposure_, 0);
+}
+
+void Exposure::record(gpu::Commands& commands, const gpu::Buffer& params, const ParticleBuffers& particles,
+                      const NeighborGrid& grid, std::uint32_t first, std::uint32_t count) const
+{
+    using gpu::read;
+    const gpu::Scope scope(commands, "exposure");
+    const std::uint32_t still = particles.count - particles.moving;
+    const std::uint32_t end = first + std::min(count, still - std::min(first, still));
+    for (; first < end; first += particles_a_dispatch) {
+        const std::uint32_t portion = std::min(end - first, particles_a_dispatch);
+        commands.dispatch(kernel_, portion, shared::ExposurePush{area_scale_, first, portion},
+                          {read(params), read(grid.cell_start), read(particles.position), read(particles.position),
+                           read(particles.id), read(particles.attributes), gpu::write(exposure_)});
+    }
+}
+
+} // namespace meltpoint::sim
