@@ -53,7 +53,7 @@ SHARED_FUNCTION float melted_fraction(HeatMaterial material, float enthalpy)
 SHARED_FUNCTION float temperature(HeatMaterial material, vec2 enthalpy)
 {
     if (enthalpy.x < 0.0f) {
-        return material.melting_point + (enthalpy.x + enthalpy.y) / material.solid_specific_heat;
+        return material.melting_point + enthalpy.x / material.solid_specific_heat;
     }
     float beyond = (enthalpy.x - material.latent_heat) + enthalpy.y;
     return material.melting_point + (beyond > 0.0f ? beyond / material.fluid_specific_heat : 0.0f);

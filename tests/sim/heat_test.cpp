@@ -189,6 +189,15 @@ TEST(HeatMaterial, TemperatureStaysWhileItMelts)
     }
 }
 
+TEST(HeatMaterial, BothPartsOfAnEnthalpyCount)
+{
+    const double ulp = 0.03125; // of the latent heat
+    EXPECT_NEAR(static_cast<double>(shared::temperature(water, {334e3f, 0.01f})), 0.01 / 4190.0, 1e-12);
+    EXPECT_EQ(shared::temperature(water, {334e3f, -0.01f}), 0.0f);
+    EXPECT_NEAR(static_cast<double>(shared::temperature(water, {334e3f + 0.03125f, -0.01f})), (ulp - 0.01) / 4190.0,
+                1e-12);
+}
+
 TEST(HeatMaterial, MayMeltWithoutLatentHeat)
 {
     shared::HeatMaterial its = water;
@@ -518,6 +527,21 @@ TEST_F(HeatTest, AnInsulatedBlockKeepsItsHeat)
             change += static_cast<double>(set.mass[i]) * std::abs(found[i] - start[i]);
         }
         EXPECT_GT(change / reference::heat_content(state, sizes), 0.1); // much has flowed
+    }
+}
+
+TEST_F(HeatTest, EnthalpyComesBackAsItWasGiven)
+{
+    const ParticleSet set = lattice_state(glm::uvec3(4), glm::vec3(0.2f));
+    std::vector<double> start(set.size());
+    for (std::size_t i = 0; i < set.size(); ++i) {
+        start[i] = 334e3 + 1.234567e-3 * static_cast<double>(i);
+    }
+    HeatedDevice heated(context(), set, settings(shared::KERNEL_WENDLAND, glm::uvec3(20), 2.6f), test_heat(), start);
+    heated.conduct(0.0);
+    const std::vector<double> found = heated.heat.download_enthalpy();
+    for (std::size_t i = 0; i < set.size(); ++i) {
+        EXPECT_NEAR(found[i], start[i], 1e-8);
     }
 }
 
