@@ -1189,6 +1189,69 @@ mutation "viscosity: the force stays where it is solved for" \
     'interaction_j.z' \
     conformance_tests 'States/PassConformance.SolvedViscosity/RandomWendland'
 
+# --- heat ---------------------------------------------------------------------------------------------------------------
+
+mutation "heat: what a float cannot hold is lost" \
+    shaders/shared/two_float.h \
+    'return vec2(large, rest)' \
+    'return vec2(large, 0.0f)' \
+    conformance_tests 'HeatTest.NothingIsTooLittleToCount'
+mutation "heat: it leaves through walls and periodic borders" \
+    shaders/sim/conduction.comp \
+    'any_changes ? tile.images : 0u' \
+    'any_changes ? 1u : 0u' \
+    conformance_tests 'HeatTest.ConductsAsItsTwin'
+mutation "heat: pairs that have met need an ever shorter step" \
+    shaders/sim/conduction.comp \
+    'max(dot(offset, offset), nearest * nearest)' \
+    'max(dot(offset, offset), 1e-14)' \
+    conformance_tests 'HeatTest.NoTemperatureLeavesTheRangeThereIs'
+mutation "heat: a pair does not agree about what flows" \
+    shaders/sim/conduction.comp \
+    'pair_conductivity(its[k].y, thermal_j.y)' \
+    'pair_conductivity(its[k].y, its[k].y)' \
+    conformance_tests 'HeatTest.AnInsulatedBlockKeepsItsHeat'
+mutation "heat: 8 % too much flows" \
+    shaders/sim/conduction.comp \
+    'dt * its[k].w * params.gradient_scale' \
+    '1.08 * dt * its[k].w * params.gradient_scale' \
+    conformance_tests 'HeatTest.ASolidMeltsAsStefanFound'
+mutation "heat: conductivities are averaged arithmetically" \
+    shaders/shared/heat.h \
+    '4.0f * k_i / (k_i + k_j) * k_j' \
+    '(k_i + k_j)' \
+    conformance_tests 'HeatMaterial.PairsHaveTheHarmonicMean'
+mutation "heat: temperature falls below the melting point while it melts" \
+    shaders/shared/heat.h \
+    'beyond > 0.0f ? beyond / material.fluid_specific_heat : 0.0f' \
+    'beyond / material.fluid_specific_heat' \
+    conformance_tests 'HeatMaterial.TemperatureStaysWhileItMelts'
+mutation "heat: colliders do not hold their temperature" \
+    shaders/sim/temperature.comp \
+    '!holds && k > 0.0' \
+    'k > 0.0' \
+    conformance_tests 'HeatTest.ConductsInThePlaneAsItsTwin'
+mutation "heat: dust has some" \
+    shaders/sim/temperature.comp \
+    'holds || state == STATE_SOLID' \
+    'state == STATE_DUST || holds || state == STATE_SOLID' \
+    conformance_tests 'HeatTest.ConductsAsItsTwin'
+mutation "heat: its last step may be too long" \
+    engine/sim/heat.cpp \
+    'std::ceil(' \
+    'std::floor(' \
+    conformance_tests 'HeatTest.StepsAreCountedAndLimited'
+mutation "heat: poor conductors amid good ones are forgotten" \
+    engine/sim/heat.cpp \
+    'shared::pair_conductivity(its.solid_conductivity, best)' \
+    '2.0f * its.solid_conductivity' \
+    conformance_tests 'HeatTest.TheLongestStepIsThatOfTheFastestMaterialButForColliders'
+mutation "heat: waves decay four times as fast as thought" \
+    engine/particles/sph_kernel.cpp \
+    '2.0 * gradient_shape(kernel, r / ratio) / r * (1.0' \
+    '0.5 * gradient_shape(kernel, r / ratio) / r * (1.0' \
+    unit_tests '*NoWaveOfALatticeDecaysFasterThanTheEigenvalueSays*'
+
 # --- named liquids ------------------------------------------------------------------------------------------------------
 
 mutation "liquids: what stands in the scene does not count" \

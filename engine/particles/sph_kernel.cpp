@@ -41,6 +41,23 @@ void for_each_lattice_site(double support_ratio, std::uint32_t dimensions, const
     }
 }
 
+// Calls body(wave vector, 1/spacing) for waves along a cell's edges and diagonals, up to the shortest of a lattice:
+// among them are those that a sum over a lattice answers most strongly.
+template <class Body>
+void for_each_lattice_wave(std::uint32_t dimensions, const Body& body)
+{
+    constexpr double finest = 0.02; // of the wave numbers, over 1/d
+    for (const glm::dvec3& direction : {glm::dvec3(1, 0, 0), glm::dvec3(1, 1, 0), glm::dvec3(1, 1, 1)}) {
+        if (dimensions == 2 && direction.z > 0.0) {
+            continue;
+        }
+        const int wave_numbers = static_cast<int>(PI * glm::length(direction) / finest);
+        for (int i = 1; i <= wave_numbers; ++i) {
+            body(i * finest * glm::normalize(direction));
+        }
+    }
+}
+
 double checked_support_ratio(double support_radius, double spacing)
 {
     const double ratio = support_radius / spacing;
@@ -183,29 +200,39 @@ double lattice_response(std::uint32_t kernel, double support_radius, double spac
 double largest_jacobi_eigenvalue(std::uint32_t kernel, double support_radius, double spacing, std::uint32_t dimensions)
 {
     const double ratio = checked_support_ratio(support_radius, spacing);
-    constexpr double finest = 0.02; // of the wave numbers, over 1/d
     double largest = 0.0;
-    for (const glm::dvec3& direction : {glm::dvec3(1, 0, 0), glm::dvec3(1, 1, 0), glm::dvec3(1, 1, 1)}) {
-        if (dimensions == 2 && direction.z > 0.0) {
-            continue;
-        }
-        const glm::dvec3 u = glm::normalize(direction);
-        const int wave_numbers = static_cast<int>(PI * glm::length(direction) / finest);
-        for (int i = 1; i <= wave_numbers; ++i) {
-            const double k = i * finest;
-            glm::dvec3 sum(0.0);
-            double squares = 0.0;
-            for_each_lattice_site(ratio, dimensions, [&](const glm::dvec3& x, double r) {
-                if (r > 0.0) {
-                    const glm::dvec3 g = gradient_shape(kernel, r / ratio) / r * x;
-                    sum += std::sin(k * glm::dot(x, u)) * g;
-                    squares += glm::dot(g, g);
-                }
-            });
-            largest = std::max(largest, glm::dot(sum, sum) / squares);
-        }
-    }
+    for_each_lattice_wave(dimensions, [&](const glm::dvec3& k) {
+        glm::dvec3 sum(0.0);
+        double squares = 0.0;
+        for_each_lattice_site(ratio, dimensions, [&](const glm::dvec3& x, double r) {
+            if (r > 0.0) {
+                const glm::dvec3 g = gradient_shape(kernel, r / ratio) / r * x;
+                sum += std::sin(glm::dot(k, x)) * g;
+                squares += glm::dot(g, g);
+            }
+        });
+        largest = std::max(largest, glm::dot(sum, sum) / squares);
+    });
     return largest;
+}
+
+double largest_conduction_eigenvalue(std::uint32_t kernel, double support_radius, double spacing,
+                                     std::uint32_t dimensions)
+{
+    const double ratio = checked_support_ratio(support_radius, spacing);
+    double moment = 0.0;
+    for_each_lattice_site(ratio, dimensions, [&](const glm::dvec3& x, double r) {
+        moment += r > 0.0 ? x.x * x.x * gradient_shape(kernel, r / ratio) / r : 0.0;
+    });
+    double largest = 0.0;
+    for_each_lattice_wave(dimensions, [&](const glm::dvec3& k) {
+        double sum = 0.0;
+        for_each_lattice_site(ratio, dimensions, [&](const glm::dvec3& x, double r) {
+            sum += r > 0.0 ? 2.0 * gradient_shape(kernel, r / ratio) / r * (1.0 - std::cos(glm::dot(k, x))) : 0.0;
+        });
+        largest = std::max(largest, sum / moment);
+    });
+    return largest / (spacing * spacing);
 }
 
 PairViscosity pair_viscosity(double support_radius, double spacing, std::uint32_t dimensions)

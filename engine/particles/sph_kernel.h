@@ -84,6 +84,13 @@ struct PairViscosity {
 [[nodiscard]] double largest_jacobi_eigenvalue(std::uint32_t kernel, double support_radius, double spacing,
                                                std::uint32_t dimensions = 3);
 
+/// The fastest decay of a temperature on that lattice by conduction (shared/heat.h), over its diffusivity, 1/m^2: plane
+/// waves are the eigenvectors, with the eigenvalues d^n sum_j L_j (1 - cos(k . x_j)), where L = -2 W'/r is divided by
+/// its moment, which is that of the gradient: 1/2 d^n sum_j x_j^2 L_j = -d^n sum_j x_j dW/dx_j. An explicit step is
+/// stable below 2 over diffusivity and eigenvalue. Throws as lattice_moments.
+[[nodiscard]] double largest_conduction_eigenvalue(std::uint32_t kernel, double support_radius, double spacing,
+                                                   std::uint32_t dimensions = 3);
+
 /// |n| H in the two outermost layers of that lattice where it ends in a flat surface, half a spacing and one and a half
 /// below it: of n = d^3 sum_j grad W_ij, smoothed as shared/capillarity.h does. Throws as lattice_moments.
 struct LayerSteepness {

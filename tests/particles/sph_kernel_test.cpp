@@ -1,5 +1,6 @@
 #include "particles/sph_kernel.h"
 
+#include <algorithm>
 #include <cmath>
 #include <functional>
 #include <numbers>
@@ -8,6 +9,7 @@
 #include <gtest/gtest.h>
 
 #include "core/error.h"
+#include "core/random.h"
 #include "particles/kernel_fixture.h"
 
 namespace meltpoint {
@@ -131,6 +133,65 @@ TEST(LatticeMoments, RefusesSupportRatiosThatHaveNoMeaning)
     EXPECT_THROW(static_cast<void>(lattice_moments(shared::KERNEL_PAPER, 1.0, 0.0)), Error);
     EXPECT_THROW(static_cast<void>(lattice_moments(shared::KERNEL_PAPER, 1.0, -0.5)), Error);
     EXPECT_THROW(static_cast<void>(lattice_moments(shared::KERNEL_PAPER, std::nan(""), 1.0)), Error);
+}
+
+// --- conduction ----------------------------------------------------------------------------------
+
+// d^n sum_j L_j f(x_j) over the neighbors on a lattice of spacing 1, L = -2 W'/r divided by the gradient's moment.
+double conduction_sum(std::uint32_t kernel, double ratio, int dimensions,
+                      const std::function<double(const glm::dvec3&)>& f)
+{
+    const auto n = static_cast<std::uint32_t>(dimensions);
+    const double scale = continuum_scales(kernel, ratio, n).gradient / lattice_moments(kernel, ratio, 1.0, n).gradient;
+    double sum = 0.0;
+    for (int x = -4; x <= 4; ++x) {
+        for (int y = -4; y <= 4; ++y) {
+            for (int z = dimensions == 3 ? -4 : 0; z <= (dimensions == 3 ? 4 : 0); ++z) {
+                const glm::dvec3 place(x, y, z);
+                const double r = glm::length(place);
+                sum += r > 0.0 ? 2.0 * scale * gradient_shape(kernel, r / ratio) / r * f(place) : 0.0;
+            }
+        }
+    }
+    return sum;
+}
+
+TEST_P(SphKernel, ConductionTakesTheSecondDerivativeOfAQuadratic)
+{
+    for (const double ratio : {1.5, 2.0, 2.6, 3.0, 4.0}) {
+        for (const int dimensions : {2, 3}) {
+            const auto laplacian = [&](const std::function<double(const glm::dvec3&)>& f) {
+                return conduction_sum(kernel(), ratio, dimensions, f);
+            };
+            EXPECT_NEAR(laplacian([](const glm::dvec3& x) { return x.x * x.x; }), 2.0, 1e-12);
+            EXPECT_NEAR(laplacian([](const glm::dvec3& x) { return 3.0 * x.x * x.x - 2.0 * x.y * x.y; }), 2.0, 1e-12);
+            EXPECT_NEAR(laplacian([](const glm::dvec3& x) { return 7.0 * x.x + x.x * x.y; }), 0.0, 1e-12);
+        }
+    }
+}
+
+TEST_P(SphKernel, NoWaveOfALatticeDecaysFasterThanTheEigenvalueSays)
+{
+    Random random(2);
+    for (const double ratio : {1.2, 2.0, 2.6, 3.0, 4.0}) {
+        for (const int dimensions : {2, 3}) {
+            const double largest =
+                largest_conduction_eigenvalue(kernel(), ratio, 1.0, static_cast<std::uint32_t>(dimensions));
+            double fastest = 0.0;
+            for (int i = 0; i < 2000; ++i) {
+                const glm::dvec3 k = PI * glm::dvec3(random.uniform(), random.uniform(), random.uniform());
+                const double rate = conduction_sum(kernel(), ratio, dimensions,
+                                                   [&](const glm::dvec3& x) { return 1.0 - std::cos(glm::dot(k, x)); });
+                fastest = std::max(fastest, rate);
+            }
+            EXPECT_LE(fastest, 1.001 * largest) << "H = " << ratio << " d, " << dimensions << " dimensions";
+            EXPECT_GE(fastest, 0.9 * largest);
+        }
+    }
+    // Of the nearest neighbors alone it is 4 an axis, at the shortest wave.
+    EXPECT_NEAR(largest_conduction_eigenvalue(kernel(), 1.2, 1.0, 3), 12.0, 2e-3);
+    EXPECT_NEAR(largest_conduction_eigenvalue(kernel(), 1.2, 1.0, 2), 8.0, 2e-3);
+    EXPECT_NEAR(largest_conduction_eigenvalue(kernel(), 0.24, 0.2, 3) * 0.04, 12.0, 2e-3); // 1/m^2
 }
 
 // --- walls ---------------------------------------------------------------------------------------

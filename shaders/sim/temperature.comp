@@ -1,0 +1,34 @@
+#version 460
+#extension GL_GOOGLE_include_directive : require
+// What conduction reads of each particle (shared/heat.h): found once, not for each pair. Twin: engine/reference/heat.cpp.
+#include "include/invocation.glsl"
+#include "shared/heat.h"
+#include "shared/particle_state.h"
+#include "shared/sph_params.h"
+
+layout(set = 0, binding = 0, scalar) uniform Params { SphParams params; };
+layout(set = 0, binding = 1, scalar) uniform Heat { HeatParams heat; };
+layout(set = 0, binding = 2, scalar) readonly buffer Id { uint id[]; };
+layout(set = 0, binding = 3, scalar) readonly buffer Attributes { uint attributes[]; };
+layout(set = 0, binding = 4, scalar) readonly buffer Position { vec4 position[]; }; // w: weight
+layout(set = 0, binding = 5, scalar) readonly buffer Velocity { vec4 velocity[]; }; // w: mass, negative of boundary particles
+layout(set = 0, binding = 6, scalar) readonly buffer Enthalpy { vec2 enthalpy[]; }; // by id, two-floats
+layout(set = 0, binding = 7, scalar) writeonly buffer Thermal { vec4 thermal[]; };
+
+void main()
+{
+    uint i = invocation_index();
+    if (i >= params.pool_count) {
+        return;
+    }
+    uint state = particle_state(attributes[i]);
+    uint material = particle_material(attributes[i]);
+    bool holds = state == STATE_COLLIDER;
+    bool has_heat = holds || state == STATE_SOLID || state == STATE_FLUID;
+    HeatMaterial its = heat.of[material];
+    vec2 h = enthalpy[id[i]];
+    float k = has_heat ? conductivity(its, h.x) : 0.0;
+    float volume = holds ? position[i].w * params.lattice_volume : abs(velocity[i].w) / params.rest_density[material];
+    bool changes = !holds && k > 0.0;
+    thermal[i] = k > 0.0 ? vec4(temperature(its, h), k, volume, changes ? 1.0 / params.rest_density[material] : 0.0) : vec4(0.0);
+}
