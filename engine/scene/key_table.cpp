@@ -304,6 +304,12 @@ std::vector<SceneKey> make_scene_keys()
         k("dust.response_time", FIELD(dust.response_time), "s", Range{1e-4, 1e4}, "in which dust takes on most of the air's velocity: short for fine dust"),
         k("dust.life", FIELD(dust.life), "s", Range{1e-3, 1e6}, "in which dust shrinks to nothing; it is also gone where it leaves the domain"),
 
+        k("heat.time_scale", FIELD(heat.time_scale), "", Range{1e-6, 1e9}, "seconds of heat in one of motion: ice in the sun recedes by some micrometers a second, so pictures take about 1000"),
+        k("heat.sun", FIELD(heat.sun), "W/m^2", Range{0, 1e12}, "of the sun on a surface that faces it, once something melts"),
+        k("heat.sun_direction", FIELD(heat.sun_direction), "", PLACE, "which way its light goes; of any length but 0"),
+        k("heat.air_temperature", FIELD(heat.air_temperature), "C", Range{-273.15, 1e5}, "of the air, which warms or cools solids where they are bare"),
+        k("heat.air_transfer", FIELD(heat.air_transfer), "W/(m^2 K)", Range{0, 1e9}, "from the air to surfaces: 5 to 25 where it is still, 100 in the wind"),
+
         k("time.dt", FIELD(time.dt), "s", Range{1e-9, 1}, "step; auto: as long as stability allows, chosen anew for every step, the last of a frame ending at its time"),
         k("time.frame_rate", FIELD(time.frame_rate), "1/s", Range{1e-2, 1e6}, "frames in a second of simulated time"),
         k("time.frames", FIELD(time.frames), "", Range{1, 1e6}, "number of frames, frame 0 (the initial state) included"),
@@ -376,10 +382,35 @@ Key<Body> liquid_key(FluidOf fluid_of, std::string_view description)
     return result;
 }
 
+/// What a body's fluid, a FluidBody, has to do with heat.
+template <class Body, class FluidOf>
+std::vector<Key<Body>> thermal_keys(FluidOf fluid_of)
+{
+    const auto k = [&](std::string_view name, auto member, std::string_view unit, Range range, std::string_view description) {
+        return key<Body>(name, [fluid_of, member](auto& body) -> auto& { return fluid_of(body).thermal.*member; }, unit, range, description);
+    };
+    return {
+        key<Body>("temperature", [fluid_of](auto& body) -> auto& { return fluid_of(body).temperature; }, "C", Range{-273.15, 1e5}, "at the start, if heat is followed; auto: the air's, or the melting point where that is on the way"),
+        k("melting_point", &ThermalProperties::melting_point, "C", Range{-273.15, 1e5}, "where solid and fluid are in balance"),
+        k("latent_heat", &ThermalProperties::latent_heat, "J/kg", Range{1, 1e9}, "that it takes to melt"),
+        k("specific_heat", &ThermalProperties::specific_heat, "J/(kg K)", Range{1e-3, 1e7}, "of the fluid"),
+        k("solid_specific_heat", &ThermalProperties::solid_specific_heat, "J/(kg K)", Range{1e-3, 1e7}, "of the solid"),
+        k("conductivity", &ThermalProperties::conductivity, "W/(m K)", Range{0, 1e6}, "of the fluid"),
+        k("solid_conductivity", &ThermalProperties::solid_conductivity, "W/(m K)", Range{0, 1e6}, "of the solid"),
+    };
+}
+
+template <class Body>
+std::vector<Key<Body>> joined(std::vector<Key<Body>> keys, const std::vector<Key<Body>>& more)
+{
+    keys.insert(keys.end(), more.begin(), more.end());
+    return keys;
+}
+
 std::vector<FluidKey> make_fluid_keys()
 {
     const auto k = [](auto... arguments) { return key<FluidBody>(arguments...); };
-    return with_shape_keys<FluidBody>("where the fluid starts; each shape has keys of its own", {
+    return joined(with_shape_keys<FluidBody>("where the fluid starts; each shape has keys of its own", {
         liquid_key<FluidBody>(ITSELF, "what it is: gives rest_density, viscosity, surface_tension and color the values below, unless they stand in the scene; custom: nothing"),
         choice<FluidBody>("lattice", FIELD(lattice), {{"cubic", FluidLattice::Cubic}, {"blue-noise", FluidLattice::BlueNoise}}, "how its particles lie at the start: in rows, or evenly without any, relaxed until the density varies by 1 %"),
         k("rest_density", FIELD(rest_density), "kg/m^3", Range{1e-3, 1e5}, "density without pressure"),
@@ -390,13 +421,13 @@ std::vector<FluidKey> make_fluid_keys()
         k("spin", FIELD(spin), "rad/s", SPEED, "spin x (position - spin_center) adds to the velocity"),
         k("spin_center", FIELD(spin_center), "m", PLACE, "what it spins about; auto: the body's center"),
         k("color", FIELD(color), "linear RGB", UNIT, "in render.color = \"material\""),
-    });
+    }), thermal_keys<FluidBody>(ITSELF));
 }
 
 std::vector<SolidKey> make_solid_keys()
 {
     const auto k = [](auto... arguments) { return key<SolidBody>(arguments...); };
-    return with_shape_keys<SolidBody>("what it is; each shape has keys of its own", {
+    return joined(with_shape_keys<SolidBody>("what it is; each shape has keys of its own", {
         liquid_key<SolidBody>(ITSELF, "what it turns into: gives rest_density, viscosity, surface_tension and fluid_color the values of a liquid, unless they stand in the scene; custom: nothing"),
         k("rest_density", FIELD(rest_density), "kg/m^3", Range{1e-3, 1e5}, "density, solid and fluid"),
         k("viscosity", FIELD(viscosity), "Pa s", Range{0, 1e4}, "dynamic, of the fluid; auto: physics.viscosity"),
@@ -410,15 +441,17 @@ std::vector<SolidKey> make_solid_keys()
         k("dissolve_point", FIELD(dissolve.point), "m", PLACE, "where the front spreads from instead, as a sphere that first touches the solid at dissolve_start; auto: it runs along dissolve_direction"),
         k("dissolve_roughness", FIELD(dissolve.roughness), "m", Range{0, 1e4}, "how far noise puts the front forward or back"),
         k("dissolve_grain", FIELD(dissolve.grain), "m", Range{1e-5, 1e4}, "size of that noise's coarsest lumps; the finest are an eighth of it"),
+        flag<SolidBody>("melts", FIELD(melts), "it turns into fluid where it has taken in its latent heat, from the sun, the air ([heat]) or what touches it"),
+        k("absorptivity", FIELD(absorptivity), "", UNIT, "part of the sun's power that its surface takes in"),
         k("color", FIELD(solid_color), "linear RGB", UNIT, "of the solid, in render.color = \"material\"; gray in the other modes"),
         k("fluid_color", FIELD(color), "linear RGB", UNIT, "of the fluid"),
-    });
+    }), thermal_keys<SolidBody>(ITSELF));
 }
 
 std::vector<EmitterKey> make_emitter_keys()
 {
     const auto k = [](auto... arguments) { return key<EmitterBody>(arguments...); };
-    return {
+    return joined<EmitterBody>({
         shape_key<EmitterBody>("how fluid comes: jet, in layers out of a round nozzle that points along the velocity; inflow, in layers through a rectangle; rain, in single particles at random places; each has keys of its own"),
         required_of("jet", k("center", SHAPE_FIELD(JetShape, center), "m", PLACE, "of the nozzle")),
         required_of("jet", k("radius", SHAPE_FIELD(JetShape, radius), "m", Range{1e-5, 1e4}, "of the nozzle")),
@@ -436,7 +469,7 @@ std::vector<EmitterKey> make_emitter_keys()
         k("stop", FIELD(stop), "s", Range{0, 1e6}, "when it ends; auto: with the run"),
         k("particles", FIELD(particles), "", Range{1, 1e9}, "that it has: it pauses while all of them are out, and takes those anew that went into sinks; auto: as many as come in the time of the run"),
         k("color", FIELD(fluid.color), "linear RGB", UNIT, "in render.color = \"material\""),
-    };
+    }, thermal_keys<EmitterBody>(FIELD(fluid)));
 }
 
 std::vector<SinkKey> make_sink_keys()
@@ -459,6 +492,8 @@ std::vector<ColliderKey> make_collider_keys()
         flag<ColliderBody>("solid", FIELD(solid), "fluid that would start inside is left out; false: a hollow shell, which may hold fluid"),
         k("friction", FIELD(friction), "Pa s", Range{0, 1e4}, "viscosity of fluid against it; 0 lets it slip freely"),
         k("contact_angle", FIELD(contact_angle), "degrees", Range{0, 180}, "of fluid with surface tension at it, inside the fluid: below 90 fluid wets it (adhesion), above it beads off"),
+        k("temperature", FIELD(temperature), "C", Range{-273.15, 1e5}, "that it keeps whatever heat flows through it; auto: it insulates"),
+        k("conductivity", FIELD(conductivity), "W/(m K)", Range{1e-6, 1e6}, "of heat, where it has a temperature"),
         k("color", FIELD(color), "linear RGB", UNIT, "in render.color = \"material\"; gray in the other modes"),
     });
 }

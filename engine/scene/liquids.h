@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <span>
 #include <string_view>
 
@@ -12,10 +13,11 @@ namespace meltpoint {
 /// A liquid that a scene may name instead of giving its values.
 struct Liquid {
     std::string_view name;
-    float rest_density;    ///< kg/m^3
-    float viscosity;       ///< dynamic, Pa s
-    float surface_tension; ///< against air, N/m
-    glm::vec3 color;       ///< linear RGB
+    float rest_density;                       ///< kg/m^3
+    float viscosity;                          ///< dynamic, Pa s
+    float surface_tension;                    ///< against air, N/m
+    glm::vec3 color;                          ///< linear RGB
+    std::optional<ThermalProperties> thermal; ///< of those who melt at one temperature
 };
 
 /// At 20 C, lava at 1,200 C.

@@ -20,6 +20,10 @@ struct Material {
     float tension = 0.0f;        ///< N/m, of fluids
     float contact_angle = 0.0f;  ///< degrees, of fluid at a collider or solid
     glm::vec3 solid_color{0.0f}; ///< linear RGB, of solids
+    ThermalProperties thermal{}; ///< where heat is followed
+    float temperature = 0.0f;    ///< degrees C, at the start
+    bool melts = false;
+    float absorptivity = 0.0f; ///< of the sun's power, of solids
 
     bool operator==(const Material&) const = default;
 };
@@ -49,8 +53,17 @@ inline float tension_of(const Scene& scene, const FluidBody& body)
     return liquid->surface_tension >= weight ? liquid->surface_tension : 0.0f;
 }
 
+/// degrees C, of a fluid or solid at the start.
+inline float start_temperature(const Scene& scene, const FluidBody& body, bool is_solid)
+{
+    const float air = scene.heat.air_temperature;
+    const float melting_point = body.thermal.melting_point;
+    return body.temperature.value_or(is_solid ? std::min(air, melting_point) : std::max(air, melting_point));
+}
+
 /// Fluids of equal rest density, viscosity, tension and color are one material, and so are colliders of equal color,
-/// friction and contact angle, and solids that are equal in all of these. A solid keeps its material as a fluid.
+/// friction and contact angle, and solids that are equal in all of these; where heat is followed they are equal in
+/// that, too. A solid keeps its material as a fluid.
 inline SceneMaterials scene_materials(const Scene& scene)
 {
     SceneMaterials result;
@@ -68,22 +81,35 @@ inline SceneMaterials scene_materials(const Scene& scene)
                         .viscosity = body.viscosity.value_or(scene.physics.viscosity),
                         .tension = tension_of(scene, body)};
     };
+    const bool heat = has_heat(scene);
+    const auto warm_material = [&](const FluidBody& body, bool is_solid) {
+        Material material = fluid_material(body);
+        if (heat) {
+            material.thermal = body.thermal;
+            material.temperature = start_temperature(scene, body, is_solid);
+        }
+        return material;
+    };
     for (const FluidBody& body : scene.fluids) {
-        result.of_fluid.push_back(index_of(fluid_material(body)));
+        result.of_fluid.push_back(index_of(warm_material(body, false)));
     }
     for (const SolidBody& body : scene.solids) {
-        Material material = fluid_material(body);
+        Material material = warm_material(body, true);
+        material.melts = body.melts;
+        material.absorptivity = heat ? body.absorptivity : 0.0f;
         material.friction = body.friction;
         material.contact_angle = body.contact_angle;
         material.solid_color = body.solid_color;
         result.of_solid.push_back(index_of(material));
     }
     for (const EmitterBody& body : scene.emitters) {
-        result.of_emitter.push_back(index_of(fluid_material(body.fluid)));
+        result.of_emitter.push_back(index_of(warm_material(body.fluid, false)));
     }
     for (const ColliderBody& body : scene.colliders) {
-        result.of_collider.push_back(
-            index_of({.color = body.color, .friction = body.friction, .contact_angle = body.contact_angle}));
+        Material material{.color = body.color, .friction = body.friction, .contact_angle = body.contact_angle};
+        material.thermal = {.conductivity = 0.0f, .solid_conductivity = body.temperature ? body.conductivity : 0.0f};
+        material.temperature = body.temperature.value_or(0.0f);
+        result.of_collider.push_back(index_of(material));
     }
     return result;
 }

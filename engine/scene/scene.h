@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <filesystem>
 #include <optional>
 #include <string>
@@ -104,6 +105,18 @@ using BodyShape = std::variant<BlockShape, SphereShape, MeshShape>;
 
 enum class FluidLattice { Cubic, BlueNoise };
 
+/// What a substance has to do with heat, fluid and solid.
+struct ThermalProperties {
+    float melting_point = 0.0f;          ///< degrees C
+    float latent_heat = 334e3f;          ///< J/kg
+    float specific_heat = 4186.0f;       ///< J/(kg K), of the fluid
+    float solid_specific_heat = 2100.0f; ///< J/(kg K)
+    float conductivity = 0.6f;           ///< W/(m K), of the fluid
+    float solid_conductivity = 2.2f;     ///< W/(m K)
+
+    bool operator==(const ThermalProperties&) const = default;
+};
+
 /// A shape filled with fluid.
 struct FluidBody {
     BodyShape shape;
@@ -117,6 +130,8 @@ struct FluidBody {
         0.0f};            ///< 1/s: adds gradient * position (a column-major glm matrix: gradient[column][row])
     glm::vec3 spin{0.0f}; ///< rad/s: adds spin x (position - spin_center)
     std::optional<glm::vec3> spin_center; ///< m; auto: the body's center
+    std::optional<float> temperature;     ///< degrees C; auto: the air's, or the melting point if that is nearer
+    ThermalProperties thermal;
     glm::vec3 color{0.16f, 0.45f, 0.78f}; ///< linear RGB of the material color mode
 };
 
@@ -141,6 +156,8 @@ struct SolidBody : FluidBody {
     glm::vec3 solid_color{0.72f, 0.55f, 0.38f}; ///< linear RGB, while it is solid
     SolidBecomes becomes = SolidBecomes::Fluid;
     DissolveFront dissolve;
+    bool melts = false;        ///< where heat has brought it to the end of its melting point
+    float absorptivity = 0.7f; ///< part of the sun's power that it takes in
 };
 
 /// A round nozzle; it points along the emitter's velocity.
@@ -181,6 +198,15 @@ struct SinkBody {
     SinkShape shape;
 };
 
+/// Where heat comes from, and how fast it works.
+struct HeatSettings {
+    float time_scale = 1.0f;                       ///< seconds of heat in one of motion
+    float sun = 1000.0f;                           ///< W/m^2 on a surface that faces it
+    glm::vec3 sun_direction{-0.4f, -1.0f, -0.35f}; ///< that its light travels in, of any length but 0
+    float air_temperature = 20.0f;                 ///< degrees C
+    float air_transfer = 10.0f;                    ///< W/(m^2 K), from air to surfaces
+};
+
 /// The air that dust drifts with, and how it does.
 struct DustSettings {
     glm::vec3 wind{0.4f, 0.25f, 0.0f}; ///< m/s
@@ -197,6 +223,8 @@ struct ColliderBody {
     bool solid = true;                    ///< no fluid starts inside; false: a hollow shell
     float friction = 0.0f;                ///< of fluid against it, Pa s; 0 is free slip
     float contact_angle = 90.0f;          ///< degrees, of fluid with tension at it
+    std::optional<float> temperature;     ///< degrees C, that it keeps; auto: it insulates
+    float conductivity = 50.0f;           ///< W/(m K), where it has a temperature
     glm::vec3 color{0.55f, 0.50f, 0.44f}; ///< linear RGB
 };
 
@@ -250,6 +278,7 @@ struct Scene {
     SolveSettings solve;
     PbfSettings pbf;
     DustSettings dust;
+    HeatSettings heat;
     TimeSettings time;
     std::vector<FluidBody> fluids;
     std::vector<SolidBody> solids;
@@ -260,6 +289,19 @@ struct Scene {
     CameraSettings camera;
     RenderSettings render;
 };
+
+/// Whether heat is followed: something melts, or has a temperature of its own.
+[[nodiscard]] inline bool has_heat(const Scene& scene)
+{
+    const auto has_temperature = [](const auto& body) {
+        return body.temperature.has_value();
+    };
+    return std::ranges::any_of(scene.solids, &SolidBody::melts) || std::ranges::any_of(scene.solids, has_temperature) ||
+           std::ranges::any_of(scene.fluids, has_temperature) ||
+           std::ranges::any_of(scene.colliders, has_temperature) ||
+           std::ranges::any_of(scene.emitters,
+                               [&](const EmitterBody& emitter) { return has_temperature(emitter.fluid); });
+}
 
 /// All bodies that are fluid or may turn into it: the fluids, then the solids, then what emitters bring.
 [[nodiscard]] inline std::vector<const FluidBody*> fluid_bodies(const Scene& scene)

@@ -40,6 +40,7 @@ public:
         check_render();
         check_fluids();
         check_flow();
+        check_heat();
         check_plates("collider", scene_.colliders);
         check_plates("surface", scene_.surfaces);
         check_materials();
@@ -223,6 +224,35 @@ private:
             if (const auto* block = std::get_if<BlockShape>(&scene_.sinks[i].shape)) {
                 check_box(fmt::format("sink.{}.", i), block->min, block->max);
             }
+        }
+    }
+
+    void check_heat() const
+    {
+        if (scene_.heat.sun_direction == glm::vec3(0.0f)) {
+            fail("heat.sun_direction", "is [0, 0, 0], but must have a length");
+        }
+        for (std::size_t i = 0; i < scene_.fluids.size(); ++i) {
+            check_temperature(fmt::format("fluid.{}.", i), scene_.fluids[i], false);
+        }
+        for (std::size_t i = 0; i < scene_.solids.size(); ++i) {
+            check_temperature(fmt::format("solid.{}.", i), scene_.solids[i], true);
+            if (scene_.solids[i].melts && scene_.solids[i].becomes == SolidBecomes::Dust) {
+                fail(fmt::format("solid.{}.melts", i), "is true, but what melts becomes fluid, not \"dust\"");
+            }
+        }
+        for (std::size_t i = 0; i < scene_.emitters.size(); ++i) {
+            check_temperature(fmt::format("emitter.{}.", i), scene_.emitters[i].fluid, false);
+        }
+    }
+
+    void check_temperature(const std::string& prefix, const FluidBody& body, bool is_solid) const
+    {
+        const float above = body.temperature.value_or(body.thermal.melting_point) - body.thermal.melting_point;
+        if (is_solid ? above > 0.0f : above < 0.0f) {
+            fail(prefix + "temperature",
+                 "is {} C, but must be at {} the melting point, {} C, of what is {} at the start", *body.temperature,
+                 is_solid ? "most" : "least", body.thermal.melting_point, is_solid ? "solid" : "fluid");
         }
     }
 

@@ -121,7 +121,17 @@ std::string liquid_rows()
         text += fmt::format("| `{}` | {} | {} | {} | [{}, {}, {}] |\n", liquid.name, liquid.rest_density,
                             liquid.viscosity, liquid.surface_tension, liquid.color.x, liquid.color.y, liquid.color.z);
     }
-    return text + "\nAt 20 C, and basaltic lava at 1,200 C.\n";
+    text += "\nAt 20 C, and basaltic lava at 1,200 C. Those who melt at one temperature:\n\n"
+            "| liquid | melting_point, C | latent_heat, J/kg | specific_heat, J/(kg K), fluid, solid | conductivity, "
+            "W/(m K), fluid, solid |\n|---|---|---|---|---|\n";
+    for (const Liquid& liquid : liquids()) {
+        if (const auto& heat = liquid.thermal) {
+            text += fmt::format("| `{}` | {} | {} | {}, {} | {}, {} |\n", liquid.name, heat->melting_point,
+                                heat->latent_heat, heat->specific_heat, heat->solid_specific_heat, heat->conductivity,
+                                heat->solid_conductivity);
+        }
+    }
+    return text;
 }
 
 } // namespace
