@@ -80,7 +80,6 @@ FrameStatistics measure(const ParticleSet& particles, const shared::SphParams& p
         statistics.momentum += mass * v;
         statistics.outside += (attributes & shared::FLAG_LEFT_DOMAIN) != 0 ? 1 : 0;
         if (state == shared::STATE_SOLID) {
-            statistics.solid_mass += mass;
             statistics.solid_volume +=
                 mass / static_cast<double>(params.rest_density[shared::particle_material(attributes)]);
         }
@@ -134,8 +133,9 @@ std::string statistics_row(const FrameStatistics& s)
     row += fmt::format(",{},{},{:.3f},{:.3f},{},{},{}", s.outside, cell_or_empty(s.neighbors_mean), s.simulate_ms,
                        s.draw_ms, cell_or_empty(s.iterations_density), cell_or_empty(s.iterations_divergence),
                        cell_or_empty(s.iterations_viscosity));
-    row +=
-        fmt::format(",,,{},,,{},{},,,,{}\n", cell(s.solid_volume), s.emitted, s.sunk, cell_or_empty(s.rate_dissolve));
+    row += fmt::format(",,{},{},{},,{},{},{},,,{}\n", cell_or_empty(s.enthalpy), cell(s.solid_volume),
+                       cell_or_empty(s.exposed_area), s.emitted, s.sunk, cell_or_empty(s.rate_melt),
+                       cell_or_empty(s.rate_dissolve));
     return row;
 }
 

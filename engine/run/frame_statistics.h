@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -46,10 +47,13 @@ struct FrameStatistics {
     std::optional<double> iterations_divergence; ///< likewise
     std::optional<double> iterations_viscosity;  ///< likewise
     double solid_volume = 0.0;                   ///< m^3
-    double solid_mass = 0.0;                     ///< kg; not in the file
+    std::array<double, 8> freed_mass{};          ///< kg, by CAUSE_*, of what is solid no more; not in the file
     std::uint64_t emitted = 0;                   ///< particles, since the start
     std::uint64_t sunk = 0;                      ///< likewise, dust at the end of its life among them
-    std::optional<double> rate_dissolve; ///< kg/s that dissolved, mean since the frame before; empty in the first
+    std::optional<double> enthalpy;              ///< J, of all fluid and solid; empty where heat is not followed
+    std::optional<double> exposed_area;          ///< m^2, of solids, likewise
+    std::optional<double> rate_melt; ///< kg/s that melted, net, mean since the frame before; empty in the first
+    std::optional<double> rate_dissolve; ///< likewise of what fronts have freed
 };
 
 /// Everything but frame, time, steps, dt, neighbors and wall times.

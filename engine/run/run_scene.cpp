@@ -325,18 +325,26 @@ public:
     }
 
     /// Nothing where there is no simulation.
-    void note(std::optional<sim::Simulation>& simulation, FrameStatistics& statistics)
+    void note(std::optional<sim::Simulation>& simulation, const ParticleSet& particles, FrameStatistics& statistics)
     {
         if (simulation) {
             statistics.neighbors_mean = mean_neighbors(*simulation, statistics.frame, warned_of_coincident_);
             const shared::Ledger ledger = simulation->ledger();
             statistics.emitted = ledger.emitted;
             statistics.sunk = ledger.sunk;
+            if (const auto heat = simulation->heat_statistics(particles)) {
+                statistics.enthalpy = heat->enthalpy;
+                statistics.exposed_area = heat->exposed_area;
+            }
         }
-        if (solid_mass_ && statistics.time > time_) { // fronts are all that takes from solids
-            statistics.rate_dissolve = (*solid_mass_ - statistics.solid_mass) / (statistics.time - time_);
+        if (freed_mass_ && statistics.time > time_) {
+            const auto rate = [&](std::uint32_t cause) {
+                return (statistics.freed_mass[cause] - (*freed_mass_)[cause]) / (statistics.time - time_);
+            };
+            statistics.rate_melt = rate(shared::CAUSE_MELT);
+            statistics.rate_dissolve = rate(shared::CAUSE_FRONT);
         }
-        solid_mass_ = statistics.solid_mass;
+        freed_mass_ = statistics.freed_mass;
         time_ = statistics.time;
         if (solves_) {
             statistics.iterations_density = (*solves_)[shared::SOLVE_DENSITY].mean_iterations;
@@ -358,8 +366,8 @@ private:
     bool warned_of_viscosity_ = false;
     bool warned_of_cap_ = false;
     bool warned_of_births_ = false;
-    std::optional<double> solid_mass_; ///< kg, at the frame before
-    double time_ = 0.0;                ///< s, of it
+    std::optional<std::array<double, 8>> freed_mass_; ///< kg, at the frame before
+    double time_ = 0.0;                               ///< s, of it
 };
 
 /// s; 0 without steps.
@@ -449,7 +457,7 @@ RunSummary run_scene(const gpu::Context& context, const Scene& scene, const RunO
                 statistics.time = summary.time;
                 statistics.steps = summary.steps;
                 statistics.dt = mean_dt(summary.time - time_before, summary.steps - steps_before);
-                watch.note(simulation, statistics);
+                watch.note(simulation, particles, statistics);
                 statistics.simulate_ms = simulate_ms;
                 statistics.draw_ms = draw_ms;
                 statistics_file->add(statistics_row(statistics));

@@ -116,6 +116,9 @@ Simulation::Simulation(const gpu::Context& context, const ParticleSet& particles
         }
         erosion_.emplace(context, particles.release_time);
         erosion_commands_ = std::make_unique<gpu::Commands>(context);
+        if (settings.melting) {
+            melting_.emplace(context, options_, params_, *settings.melting, particles.attributes);
+        }
         gone_ = static_cast<std::uint32_t>(std::ranges::count_if(particles.attributes, shared::is_gone));
         if (settings.dust) {
             dust_.emplace(context, *settings.dust);
@@ -125,6 +128,9 @@ Simulation::Simulation(const gpu::Context& context, const ParticleSet& particles
         }
     }
     solver_->record_start(*commands_, fluid());
+    if (melting_) {
+        melting_->record_surface(*commands_, params_buffer_, particles_, grid_);
+    }
     commands_->submit();
     commands_->wait();
 }
@@ -150,6 +156,14 @@ std::uint32_t Simulation::steps_until_erosion() const
     return erosion_ ? static_cast<std::uint32_t>(next_erosion_ - step_) : ~0u;
 }
 
+std::uint32_t Simulation::look_interval() const
+{
+    const std::uint32_t interval = Erosion::interval(params_.pool_count, params_.moving_count);
+    const double longest = melting_ ? melting_->longest_look() : std::numeric_limits<double>::infinity();
+    const double longest_dt = static_cast<double>(time_.adaptive() ? params_.longest_dt : params_.dt);
+    return static_cast<std::uint32_t>(std::clamp(longest / longest_dt, 1.0, static_cast<double>(interval)));
+}
+
 void Simulation::erode(double time)
 {
     if (!erosion_ || step_ < next_erosion_) {
@@ -157,9 +171,16 @@ void Simulation::erode(double time)
     }
     gpu::Commands& commands = *erosion_commands_;
     commands.begin();
-    const std::uint32_t interval = Erosion::interval(params_.pool_count, params_.moving_count);
+    const std::uint32_t interval = look_interval();
     next_erosion_ = step_ + interval;
+    if (melting_) {
+        melting_->record_heat(commands, kernels_, params_buffer_, particles_, grid_, time - looked_at_);
+        looked_at_ = time;
+    }
     erosion_->record_look(commands, params_buffer_, particles_, static_cast<float>(time));
+    if (melting_) {
+        melting_->record_changes(commands, params_buffer_, particles_, grid_, erosion_->changes());
+    }
     if (emission_) {
         emission_->record_calls(commands, params_buffer_, particles_, erosion_->release_time(), erosion_->changes(),
                                 gone_, time, time + longest_time(interval));
@@ -172,10 +193,10 @@ void Simulation::erode(double time)
     if (emission_) {
         emission_->note_called(found);
     }
-    params_.moving_count += found.freed + called - found.died;
+    params_.moving_count += found.freed + called - found.died - found.frozen;
     particles_.moving = params_.moving_count;
     gone_ += found.died - called;
-    if (found.freed + found.died + called == 0) {
+    if (found.freed + found.died + found.frozen + called == 0) {
         return;
     }
     commands.begin();
@@ -190,6 +211,9 @@ void Simulation::erode(double time)
     }
     if (capillarity_) {
         capillarity_->record_start(commands);
+    }
+    if (melting_) {
+        melting_->record_surface(commands, params_buffer_, particles_, grid_);
     }
     commands.submit();
     commands.wait();
@@ -279,6 +303,7 @@ std::uint64_t Simulation::device_bytes() const
     sum += capillarity_ ? capillarity_->device_bytes() : 0;
     sum += erosion_ ? erosion_->device_bytes() : 0;
     sum += emission_ ? emission_->device_bytes() : 0;
+    sum += melting_ ? melting_->device_bytes() : 0;
     sum += boundary_forces_ != nullptr ? boundary_forces_->reactions().size() : 0;
     for (const gpu::Buffer* buffer : {&particles_.id,
                                       &particles_.attributes,
@@ -310,6 +335,29 @@ std::uint64_t Simulation::device_bytes() const
 ParticleSet Simulation::download() const
 {
     return meltpoint::download(*context_, particles_);
+}
+
+std::vector<double> Simulation::enthalpy() const
+{
+    return melting_ ? melting_->heat().download_enthalpy() : std::vector<double>{};
+}
+
+std::optional<Simulation::HeatStatistics> Simulation::heat_statistics(const ParticleSet& particles) const
+{
+    if (!melting_) {
+        return std::nullopt;
+    }
+    const std::vector<double> enthalpy = melting_->heat().download_enthalpy();
+    const std::vector<glm::vec4> exposure = melting_->download_exposure();
+    HeatStatistics statistics;
+    for (std::size_t i = 0; i < particles.size(); ++i) {
+        const std::uint32_t state = shared::particle_state(particles.attributes[i]);
+        if (state == shared::STATE_FLUID || state == shared::STATE_SOLID) {
+            statistics.enthalpy += static_cast<double>(particles.mass[i]) * enthalpy[i];
+        }
+        statistics.exposed_area += state == shared::STATE_SOLID ? static_cast<double>(exposure[i].w) : 0.0;
+    }
+    return statistics;
 }
 
 shared::Ledger Simulation::ledger() const

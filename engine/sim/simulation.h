@@ -15,6 +15,7 @@
 #include "sim/erosion.h"
 #include "sim/fluid_kernels.h"
 #include "sim/implicit_viscosity.h"
+#include "sim/melting.h"
 #include "sim/neighbor_grid.h"
 #include "sim/solver.h"
 
@@ -26,6 +27,7 @@ struct SimulationSettings {
     FluidOptions options;
     std::optional<shared::DustParams> dust; ///< where some of the solids crumble
     EmissionSettings emission;
+    std::optional<MeltingSettings> melting; ///< where heat is followed
 };
 
 /// The params with the numbers of particles and the grid size filled in: all of them move.
@@ -77,6 +79,16 @@ public:
     [[nodiscard]] ParticleSet download() const;
     /// Counts neighbors on the device, and waits.
     [[nodiscard]] NeighborStatistics neighbor_statistics();
+
+    /// What heat has come to, where it is followed.
+    struct HeatStatistics {
+        double enthalpy = 0.0;     ///< J, of all fluid and solid: 0 of solid at the melting point
+        double exposed_area = 0.0; ///< m^2, of solids, as it was last looked at
+    };
+    /// Of particles as download() has them. Waits.
+    [[nodiscard]] std::optional<HeatStatistics> heat_statistics(const ParticleSet& particles) const;
+    /// J/kg, by id; empty where heat is not followed. Waits.
+    [[nodiscard]] std::vector<double> enthalpy() const;
 
     /// Particles that have come and gone since the start. Waits.
     [[nodiscard]] shared::Ledger ledger() const;
@@ -134,6 +146,8 @@ private:
     void erode(double time);
     /// Throws where there is a fault; `time` of it in s since the start.
     static void check_status(const shared::Status& status, double time);
+    /// Steps from this look to the next.
+    [[nodiscard]] std::uint32_t look_interval() const;
     /// s, the longest that so many steps may take from now on.
     [[nodiscard]] double longest_time(std::uint32_t steps) const;
     [[nodiscard]] std::uint32_t steps_a_submission() const;
@@ -165,6 +179,7 @@ private:
     std::optional<Erosion> erosion_;
     std::optional<Dust> dust_;
     std::optional<Emission> emission_;
+    std::optional<Melting> melting_;
     ParticleBuffers particles_;
     NeighborGrid grid_;
     gpu::Buffer params_buffer_;
@@ -177,6 +192,7 @@ private:
     std::unique_ptr<gpu::Commands> erosion_commands_; ///< apart, so that timings() are those of steps
     std::uint64_t step_ = 0;
     std::uint64_t next_erosion_ = 0;    ///< the step before which solids are looked at
+    double looked_at_ = 0.0;            ///< s, when that was done last
     std::uint32_t gone_ = 0;            ///< particles that are dead and lie behind all others
     float dt_limit_ = 0.0f;             ///< s, how long the last step might have been
     double seconds_ = 0.0;              ///< since the start

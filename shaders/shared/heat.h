@@ -73,6 +73,15 @@ SHARED_FUNCTION float conductivity(HeatMaterial material, float enthalpy)
     return (1.0f - melted) * material.solid_conductivity + melted * material.fluid_conductivity;
 }
 
+// J/(kg K); 0 while it melts, where nothing gets warmer.
+SHARED_FUNCTION float specific_heat(HeatMaterial material, float enthalpy)
+{
+    if (enthalpy < 0.0f) {
+        return material.solid_specific_heat;
+    }
+    return enthalpy > material.latent_heat ? material.fluid_specific_heat : 0.0f;
+}
+
 // 4 k_i k_j / (k_i + k_j), so that flux is continuous where conductivity is not; 0 against what does not conduct.
 SHARED_FUNCTION float pair_conductivity(float k_i, float k_j)
 {

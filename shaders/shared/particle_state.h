@@ -35,6 +35,17 @@ SHARED_FUNCTION bool is_still(uint attributes)
 SHARED_FUNCTION uint with_state(uint attributes, uint state) { return (attributes & ~0xffu) | state; }
 SHARED_FUNCTION uint pack_attributes(uint state, uint material) { return state | (material << MATERIAL_SHIFT); } // no flags
 
+// What has freed a solid particle last, in bits 24..26.
+SHARED_CONSTANT uint CAUSE_SHIFT = 24u;
+SHARED_CONSTANT uint CAUSE_NONE = 0u;
+SHARED_CONSTANT uint CAUSE_FRONT = 1u;
+SHARED_CONSTANT uint CAUSE_MELT = 2u;
+SHARED_FUNCTION uint cause_of(uint attributes) { return (attributes >> CAUSE_SHIFT) & 7u; } // CAUSE_*
+SHARED_FUNCTION uint freed_as(uint attributes, uint state, uint cause)
+{
+    return (with_state(attributes, state) & ~(7u << CAUSE_SHIFT)) | (cause << CAUSE_SHIFT);
+}
+
 // Why the simulation stopped.
 SHARED_CONSTANT uint FAULT_NONE = 0u;
 SHARED_CONSTANT uint FAULT_NOT_FINITE = 1u; // a position or velocity is NaN or infinite

@@ -7,7 +7,8 @@ SHARED_BEGIN
 
 struct PoolChanges {
     uint freed; // still ones that will move
-    uint died;  // moving ones that are dead
+    uint died;   // moving ones that are dead
+    uint frozen; // moving ones that are solid
     uint called[MAX_EMITTERS]; // dead ones that were called up to be born, by emitter
 };
 

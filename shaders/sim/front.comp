@@ -23,7 +23,7 @@ void main()
         return;
     }
     bool crumbles = (attributes[i] & FLAG_CRUMBLES) != 0u;
-    attributes[i] = with_state(attributes[i], crumbles ? STATE_DUST : STATE_FLUID);
+    attributes[i] = freed_as(attributes[i], crumbles ? STATE_DUST : STATE_FLUID, CAUSE_FRONT);
     velocity[i].w = crumbles ? velocity[i].w : abs(velocity[i].w);
     position[i].w = crumbles ? 0.0 : position[i].w;
     atomicAdd(changes.freed, 1u);

@@ -1,0 +1,70 @@
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include <glm/glm.hpp>
+
+#include "gpu/commands.h"
+#include "particle_buffers/particle_buffers.h"
+#include "shared/heat.h"
+#include "shared/melting.h"
+#include "sim/exposure.h"
+#include "sim/heat.h"
+#include "sim/visibility.h"
+
+namespace meltpoint::sim {
+
+/// What heat needs of a scene.
+struct MeltingSettings {
+    shared::HeatParams heat{};
+    shared::MeltingParams params{};
+    double time_scale = 1.0;      ///< seconds of heat in one of motion
+    std::vector<double> enthalpy; ///< J/kg, of each particle at the start, by id
+};
+
+/// Heat, and whom it turns into fluid or back: at the looks of a simulation.
+class Melting {
+public:
+    /// attributes: by id. Throws as Heat and Visibility.
+    Melting(const gpu::Context& context, const FluidOptions& options, const shared::SphParams& params,
+            const MeltingSettings& settings, const std::vector<std::uint32_t>& attributes);
+
+    /// Where solids are exposed and seen by the sun: to be found out again whenever others are solid.
+    void record_surface(gpu::Commands& commands, const gpu::Buffer& params, const ParticleBuffers& particles,
+                        const NeighborGrid& grid) const;
+
+    /// What happened to heat in the `seconds` of motion since the last look: sun, air, conduction. Throws Input where
+    /// that takes too many steps.
+    void record_heat(gpu::Commands& commands, const FluidKernels& kernels, const gpu::Buffer& params,
+                     const ParticleBuffers& particles, const NeighborGrid& grid, double seconds) const;
+
+    /// Solids melt and fluid freezes, counted in `changes`, shared::PoolChanges: they lie among the others yet.
+    void record_changes(gpu::Commands& commands, const gpu::Buffer& params, const ParticleBuffers& particles,
+                        const NeighborGrid& grid, const gpu::Buffer& changes) const;
+
+    /// s of motion, the longest from one look to the next: in it sun and air melt a fortieth of a particle, for
+    /// what a particle gets beyond its latent heat is lost to the next one. Infinite where neither melts anything.
+    [[nodiscard]] double longest_look() const { return longest_look_; }
+
+    [[nodiscard]] const Heat& heat() const { return heat_; }
+    /// Of all particles, by id: normal, and in w the exposed area in m^2 as it was last found. Waits.
+    [[nodiscard]] std::vector<glm::vec4> download_exposure() const;
+
+    [[nodiscard]] std::uint64_t device_bytes() const;
+
+private:
+    const gpu::Context* context_;
+    double time_scale_;
+    double longest_look_;
+    std::size_t count_;
+    Exposure exposure_;
+    Visibility visibility_;
+    Heat heat_;
+    gpu::Kernel warm_;
+    gpu::Kernel melt_;
+    gpu::Kernel freeze_;
+    gpu::Buffer params_; ///< shared::MeltingParams
+};
+
+} // namespace meltpoint::sim

@@ -1,0 +1,51 @@
+#version 460
+#extension GL_EXT_control_flow_attributes : require
+#extension GL_GOOGLE_include_directive : require
+// Fluid that has no latent heat left is solid where a solid, or a collider, is near: it stops there. They lie among the moving
+// ones yet. Twin: engine/reference/melting.cpp.
+#define CELL_START_BINDING 1
+#include "include/candidate.glsl"
+#include "include/invocation.glsl"
+#include "include/neighbor_walk.glsl"
+#include "shared/melting.h"
+#include "shared/particle_state.h"
+#include "shared/pool_changes.h"
+
+layout(set = 0, binding = 0, scalar) uniform Params { SphParams params; };
+layout(set = 0, binding = 2, scalar) uniform Melting { MeltingParams melting; };
+layout(set = 0, binding = 3, scalar) readonly buffer Id { uint id[]; };
+layout(set = 0, binding = 4, scalar) readonly buffer Enthalpy { vec2 enthalpy[]; }; // by id, two-floats
+layout(set = 0, binding = 5, scalar) readonly buffer Position { vec4 position[]; };
+layout(set = 0, binding = 6, scalar) buffer Attributes { uint attributes[]; };
+layout(set = 0, binding = 7, scalar) buffer Velocity { vec4 velocity[]; }; // w: mass, negative of boundary particles
+layout(set = 0, binding = 8, scalar) buffer Changes { PoolChanges changes; };
+
+bool touches_solid(vec3 x)
+{
+    vec3 walking[TILE]; // a walk is that of a tile
+    [[unroll]] for (uint k = 0u; k < TILE; ++k) {
+        walking[k] = k == 0u ? x : NOWHERE;
+    }
+    float reach = FREEZING_DISTANCE * params.spacing;
+    bool found = false;
+    Walk walk = begin_walk(walking, params.domain_min, params.support_radius, params.grid_size);
+    walk.table = int(params.grid_size.x * params.grid_size.y * params.grid_size.z); // of the still ones alone
+    FOR_EACH_CANDIDATE(range, walk) {
+        vec3 offset = x - position[range.x].xyz;
+        found = found || (is_still(attributes[range.x]) && dot(offset, offset) < reach * reach);
+    }
+    return found;
+}
+
+void main()
+{
+    uint i = invocation_index();
+    if (i >= params.moving_count || particle_state(attributes[i]) != STATE_FLUID || enthalpy[id[i]].x > 0.0) {
+        return;
+    }
+    if (touches_solid(position[i].xyz)) {
+        attributes[i] = with_state(attributes[i], STATE_SOLID);
+        velocity[i] = vec4(vec3(0.0), -abs(velocity[i].w));
+        atomicAdd(changes.frozen, 1u);
+    }
+}

@@ -1,0 +1,32 @@
+#version 460
+#extension GL_GOOGLE_include_directive : require
+// Solid particles whose latent heat is complete turn into fluid: they keep their place, velocity, mass, material and enthalpy.
+// Twin: engine/reference/melting.cpp.
+#include "include/invocation.glsl"
+#include "shared/heat.h"
+#include "shared/melting.h"
+#include "shared/particle_state.h"
+#include "shared/pool_changes.h"
+
+layout(set = 0, binding = 0, scalar) uniform Params { SphParams params; };
+layout(set = 0, binding = 1, scalar) uniform Heat { HeatParams heat; };
+layout(set = 0, binding = 2, scalar) uniform Melting { MeltingParams melting; };
+layout(set = 0, binding = 3, scalar) readonly buffer Id { uint id[]; };
+layout(set = 0, binding = 4, scalar) readonly buffer Enthalpy { vec2 enthalpy[]; }; // by id, two-floats
+layout(set = 0, binding = 5, scalar) buffer Attributes { uint attributes[]; };
+layout(set = 0, binding = 6, scalar) buffer Velocity { vec4 velocity[]; }; // w: mass, negative of boundary particles
+layout(set = 0, binding = 7, scalar) buffer Changes { PoolChanges changes; };
+
+void main()
+{
+    uint i = params.moving_count + invocation_index();
+    if (i >= params.pool_count || particle_state(attributes[i]) != STATE_SOLID) {
+        return;
+    }
+    uint material = particle_material(attributes[i]);
+    if (melting.melts[material] != 0u && enthalpy[id[i]].x >= heat.of[material].latent_heat) {
+        attributes[i] = freed_as(attributes[i], STATE_FLUID, CAUSE_MELT);
+        velocity[i].w = abs(velocity[i].w);
+        atomicAdd(changes.freed, 1u);
+    }
+}
