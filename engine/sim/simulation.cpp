@@ -119,17 +119,24 @@ Simulation::Simulation(const gpu::Context& context, const ParticleSet& particles
         if (settings.melting) {
             melting_.emplace(context, options_, params_, *settings.melting, particles.attributes);
         }
+        if (settings.wind) {
+            wind_.emplace(context, options_, params_, *settings.wind);
+            wind_->record_start(*commands_);
+        }
         gone_ = static_cast<std::uint32_t>(std::ranges::count_if(particles.attributes, shared::is_gone));
         if (settings.dust) {
             dust_.emplace(context, *settings.dust);
         }
-        if (settings.dust || !settings.emission.empty()) { // the ledger is that of dust, too
+        if (settings.dust || settings.wind || !settings.emission.empty()) { // the ledger is that of dust, too
             emission_.emplace(context, settings.emission);
         }
     }
     solver_->record_start(*commands_, fluid());
     if (melting_) {
         melting_->record_surface(*commands_, params_buffer_, particles_, grid_);
+    }
+    if (wind_) {
+        wind_->record_surface(*commands_, params_buffer_, particles_, grid_);
     }
     commands_->submit();
     commands_->wait();
@@ -159,7 +166,9 @@ std::uint32_t Simulation::steps_until_erosion() const
 std::uint32_t Simulation::look_interval() const
 {
     const std::uint32_t interval = Erosion::interval(params_.pool_count, params_.moving_count);
-    const double longest = melting_ ? melting_->longest_look() : std::numeric_limits<double>::infinity();
+    constexpr double infinite = std::numeric_limits<double>::infinity();
+    const double longest =
+        std::min(melting_ ? melting_->longest_look() : infinite, wind_ ? wind_->longest_look() : infinite);
     const double longest_dt = static_cast<double>(time_.adaptive() ? params_.longest_dt : params_.dt);
     return static_cast<std::uint32_t>(std::clamp(longest / longest_dt, 1.0, static_cast<double>(interval)));
 }
@@ -175,12 +184,15 @@ void Simulation::erode(double time)
     next_erosion_ = step_ + interval;
     if (melting_) {
         melting_->record_heat(commands, kernels_, params_buffer_, particles_, grid_, time - looked_at_);
-        looked_at_ = time;
     }
     erosion_->record_look(commands, params_buffer_, particles_, static_cast<float>(time));
     if (melting_) {
         melting_->record_changes(commands, params_buffer_, particles_, grid_, erosion_->changes());
     }
+    if (wind_) {
+        wind_->record_changes(commands, params_buffer_, particles_, grid_, erosion_->changes(), time - looked_at_);
+    }
+    looked_at_ = time;
     if (emission_) {
         emission_->record_calls(commands, params_buffer_, particles_, erosion_->release_time(), erosion_->changes(),
                                 gone_, time, time + longest_time(interval));
@@ -193,10 +205,11 @@ void Simulation::erode(double time)
     if (emission_) {
         emission_->note_called(found);
     }
-    params_.moving_count += found.freed + called - found.died - found.frozen;
+    note_sand(found);
+    params_.moving_count += found.freed + called - found.died - found.frozen - found.deposited;
     particles_.moving = params_.moving_count;
     gone_ += found.died - called;
-    if (found.freed + found.died + found.frozen + called == 0) {
+    if (found.freed + found.died + found.frozen + found.deposited + called == 0) {
         return;
     }
     commands.begin();
@@ -215,8 +228,20 @@ void Simulation::erode(double time)
     if (melting_) {
         melting_->record_surface(commands, params_buffer_, particles_, grid_);
     }
+    if (wind_) {
+        wind_->record_surface(commands, params_buffer_, particles_, grid_);
+    }
     commands.submit();
     commands.wait();
+}
+
+void Simulation::note_sand(const shared::PoolChanges& found)
+{
+    sand_.deposited += found.deposited;
+    for (std::uint32_t material = 0; material < shared::MAX_MATERIALS; ++material) {
+        sand_.picked_up += found.picked_up[material] * static_cast<double>(params_.rest_density[material]) *
+                           static_cast<double>(params_.lattice_volume);
+    }
 }
 
 Simulation::Readback Simulation::submit_steps(std::uint32_t steps, double start)
@@ -227,6 +252,9 @@ Simulation::Readback Simulation::submit_steps(std::uint32_t steps, double start)
         const auto at = static_cast<float>(start + (i + 1) * fixed_dt);
         if (dust_) {
             dust_->record(*commands_, fluid(), erosion_->release_time(), emission_->ledger(), at);
+        }
+        if (wind_) {
+            wind_->record_step(*commands_, fluid(), emission_->ledger());
         }
         if (emission_) {
             emission_->record_step(*commands_, fluid(), erosion_->release_time(), at);
@@ -304,6 +332,7 @@ std::uint64_t Simulation::device_bytes() const
     sum += erosion_ ? erosion_->device_bytes() : 0;
     sum += emission_ ? emission_->device_bytes() : 0;
     sum += melting_ ? melting_->device_bytes() : 0;
+    sum += wind_ ? wind_->device_bytes() : 0;
     sum += boundary_forces_ != nullptr ? boundary_forces_->reactions().size() : 0;
     for (const gpu::Buffer* buffer : {&particles_.id,
                                       &particles_.attributes,
@@ -470,7 +499,8 @@ Simulation::BoundaryForceMeans Simulation::take_boundary_forces()
 void Simulation::enable_timings()
 {
     const std::uint32_t scopes = solver_->scopes() + vorticity_.scopes() + (viscosity_ ? 1 : 0) + (shifting_ ? 1 : 0) +
-                                 (capillarity_ ? 1 : 0) + (dust_ ? 1 : 0) + (emission_ ? emission_->scopes() : 0);
+                                 (capillarity_ ? 1 : 0) + (dust_ ? 1 : 0) + (wind_ ? Wind::scopes() : 0) +
+                                 (emission_ ? emission_->scopes() : 0);
     commands_ = std::make_unique<gpu::Commands>(*context_, max_steps_per_submission * scopes);
 }
 

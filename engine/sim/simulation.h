@@ -18,6 +18,7 @@
 #include "sim/melting.h"
 #include "sim/neighbor_grid.h"
 #include "sim/solver.h"
+#include "sim/wind.h"
 
 namespace meltpoint::sim {
 
@@ -28,6 +29,7 @@ struct SimulationSettings {
     std::optional<shared::DustParams> dust; ///< where some of the solids crumble
     EmissionSettings emission;
     std::optional<MeltingSettings> melting; ///< where heat is followed
+    std::optional<WindSettings> wind;       ///< where there is sand
 };
 
 /// The params with the numbers of particles and the grid size filled in: all of them move.
@@ -90,6 +92,15 @@ public:
     /// J/kg, by id; empty where heat is not followed. Waits.
     [[nodiscard]] std::vector<double> enthalpy() const;
 
+    /// What has become of sand since the start.
+    struct SandStatistics {
+        std::uint64_t deposited = 0; ///< particles that were loose and have come to rest
+        double picked_up = 0.0;      ///< kg, that the wind has taken
+    };
+    [[nodiscard]] const SandStatistics& sand_statistics() const { return sand_; }
+    /// Where there is sand.
+    [[nodiscard]] const Wind* wind() const { return wind_ ? &*wind_ : nullptr; }
+
     /// Particles that have come and gone since the start. Waits.
     [[nodiscard]] shared::Ledger ledger() const;
     /// Births for which an emitter had no particle left, of each, since the start.
@@ -144,6 +155,7 @@ private:
     /// Where a look at the solids and the dead is due: those that are due to turn into fluid or dust do, those that are
     /// to be born soon are called up, and the pool is parted anew. `time` in s since the start.
     void erode(double time);
+    void note_sand(const shared::PoolChanges& found);
     /// Throws where there is a fault; `time` of it in s since the start.
     static void check_status(const shared::Status& status, double time);
     /// Steps from this look to the next.
@@ -180,6 +192,7 @@ private:
     std::optional<Dust> dust_;
     std::optional<Emission> emission_;
     std::optional<Melting> melting_;
+    std::optional<Wind> wind_;
     ParticleBuffers particles_;
     NeighborGrid grid_;
     gpu::Buffer params_buffer_;
@@ -190,6 +203,7 @@ private:
     std::unique_ptr<BoundaryForces> boundary_forces_;
     std::unique_ptr<gpu::Commands> commands_;
     std::unique_ptr<gpu::Commands> erosion_commands_; ///< apart, so that timings() are those of steps
+    SandStatistics sand_;
     std::uint64_t step_ = 0;
     std::uint64_t next_erosion_ = 0;    ///< the step before which solids are looked at
     double looked_at_ = 0.0;            ///< s, when that was done last

@@ -1,0 +1,73 @@
+// Wind over sand. What the wind takes off a flat bed is Bagnold's flux over the length of a hop (Bagnold 1941), times what the
+// slope does to its shear stress (Kroy, Sauermann & Herrmann 2002), where the wind sees the surface at all. A grain that it has
+// taken hops: it flies through the wind's logarithmic profile until it comes down. Then it is loose: it stays where it is, or
+// slides where the ground is steeper than its angle of repose. At the next look it is solid again where there is room.
+//
+// One particle stands for all the sand in its volume; the size of a grain is that of the sand.
+#ifndef MELTPOINT_SHARED_WIND_H
+#define MELTPOINT_SHARED_WIND_H
+#include "sph_params.h"
+
+SHARED_BEGIN
+
+SHARED_CONSTANT float KARMAN = 0.4f;
+
+// Shear stress over that on flat ground rises by so much a slope of 1 along the wind: A B = 3.2 x 0.25 of Kroy et al.; the other
+// part of theirs, of the hill as a whole, needs a Fourier transform and is left out.
+SHARED_CONSTANT float STRESS_OF_SLOPE = 0.8f;
+SHARED_CONSTANT float STEEPEST_STRESS = 1.0f; // slope from which on it rises no further: sand is not so steep for long
+
+// The wind leaves the ground at a crest and comes back six crest heights on (Kroy et al.: separation bubbles): the direction in
+// which it sees the surface falls by so much.
+SHARED_CONSTANT float REATTACHMENT_SLOPE = 1.0f / 6.0f;
+
+// In spacings.
+SHARED_CONSTANT int GROUND_REACH = 3;      // texels of a spacing on each side, to which the ground's plane is fitted
+SHARED_CONSTANT float DROP_REACH = 4.0f;   // how far down a slope is looked at: at the foot of a cliff nothing slides
+SHARED_CONSTANT float COVERED = 0.9f;      // a particle that lies deeper than so under its column's top is covered
+SHARED_CONSTANT float BURIED = 0.5f;       // a hop ends so deep under the mean ground, as it runs into a slope
+SHARED_CONSTANT float LONGEST_PUSH = 0.1f; // a step, out of solid
+
+SHARED_CONSTANT float LEAST_DROP = 0.5f; // over DROP_REACH, of that of the steepest slope that holds
+
+SHARED_CONSTANT float LEAST_LAUNCH = 0.7f;   // speed of the slowest over that of the mean; the fastest has as much more
+SHARED_CONSTANT float FLYING_VOLUME = 0.25f; // that is seen of a particle while it hops: its sand is spread out
+
+struct WindMaterial {
+    uint erodes;           // 1 of sand
+    float pick_up;         // kg/(m^2 s), of a flat bed in full wind, were there no threshold
+    float threshold;       // shear stress over that on flat ground, below which it takes nothing
+    float friction;        // tangent of the angle of repose
+    float steepest;        // tangent of that at which sand at rest begins to slide
+    float response_time;   // s, in which a grain takes on most of the air's velocity
+    float launch_speed;    // m/s, upward, at which a mean hop begins
+};
+
+struct WindParams {
+    vec3 direction;          // unit vectors: along the wind, at right angles to gravity,
+    float friction_velocity; // u*, m/s
+    vec3 up;                 // and against gravity
+    float roughness_length;  // z0, m
+    float floor_height;      // m, along up, of the lowest border
+    float rest_support;      // of a particle on the surface of a lattice (support_of)
+    float own_filling;       // V W(0)
+    float rest_speed;        // m/s: what is slower is at rest
+    WindMaterial of[MAX_MATERIALS];
+};
+
+// What the slope along the wind does to the shear stress, over that on flat ground.
+SHARED_FUNCTION float stress_on_slope(float slope)
+{
+    float s = slope < -STEEPEST_STRESS ? -STEEPEST_STRESS : (slope > STEEPEST_STRESS ? STEEPEST_STRESS : slope);
+    return 1.0f + STRESS_OF_SLOPE * s;
+}
+
+// Of a hop, over that of a mean one: as random as an id is (Knuth's multiplicative hash).
+SHARED_FUNCTION float launch_share(uint id)
+{
+    float share = float((id * 2654435769u) >> 8u) / 16777216.0f;
+    return LEAST_LAUNCH + 2.0f * (1.0f - LEAST_LAUNCH) * share;
+}
+
+SHARED_END
+#endif
