@@ -332,6 +332,12 @@ public:
             const shared::Ledger ledger = simulation->ledger();
             statistics.emitted = ledger.emitted;
             statistics.sunk = ledger.sunk;
+            const sim::Simulation::SandStatistics& sand = simulation->sand_statistics();
+            statistics.deposited = sand.deposited;
+            if (simulation->wind() != nullptr && picked_up_ && statistics.time > time_) {
+                statistics.rate_wind = (sand.picked_up - *picked_up_) / (statistics.time - time_);
+            }
+            picked_up_ = sand.picked_up;
             if (const auto heat = simulation->heat_statistics(particles)) {
                 statistics.enthalpy = heat->enthalpy;
                 statistics.exposed_area = heat->exposed_area;
@@ -367,6 +373,7 @@ private:
     bool warned_of_cap_ = false;
     bool warned_of_births_ = false;
     std::optional<std::array<double, 8>> freed_mass_; ///< kg, at the frame before
+    std::optional<double> picked_up_;                 ///< kg, likewise
     double time_ = 0.0;                               ///< s, of it
 };
 

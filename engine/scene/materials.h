@@ -24,6 +24,8 @@ struct Material {
     float temperature = 0.0f;    ///< degrees C, at the start
     bool melts = false;
     float absorptivity = 0.0f; ///< of the sun's power, of solids
+    bool wind_erodes = false;
+    SandProperties sand{};
 
     bool operator==(const Material&) const = default;
 };
@@ -97,6 +99,8 @@ inline SceneMaterials scene_materials(const Scene& scene)
         Material material = warm_material(body, true);
         material.melts = body.melts;
         material.absorptivity = heat ? body.absorptivity : 0.0f;
+        material.wind_erodes = body.wind_erodes;
+        material.sand = body.wind_erodes ? body.sand : SandProperties{};
         material.friction = body.friction;
         material.contact_angle = body.contact_angle;
         material.solid_color = body.solid_color;

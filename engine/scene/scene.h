@@ -146,6 +146,16 @@ struct DissolveFront {
     float grain = 0.1f;                 ///< m, size of the coarsest unevenness
 };
 
+/// What a solid of sand consists of.
+struct SandProperties {
+    float grain_size = 250e-6f;    ///< m
+    float grain_density = 2650.0f; ///< kg/m^3, of the mineral
+    float cohesion = 3e-4f;        ///< N/m, gamma of Shao & Lu 2000
+    float repose_angle = 34.0f;    ///< degrees
+
+    bool operator==(const SandProperties&) const = default;
+};
+
 enum class SolidBecomes { Fluid, Dust };
 
 /// A solid that stands still and may turn into fluid, or crumble into dust. What FluidBody says is of that fluid; its
@@ -158,6 +168,8 @@ struct SolidBody : FluidBody {
     DissolveFront dissolve;
     bool melts = false;        ///< where heat has brought it to the end of its melting point
     float absorptivity = 0.7f; ///< part of the sun's power that it takes in
+    bool wind_erodes = false;  ///< sand: the wind takes it, and it slides where it is too steep
+    SandProperties sand;
 };
 
 /// A round nozzle; it points along the emitter's velocity.
@@ -205,6 +217,17 @@ struct HeatSettings {
     glm::vec3 sun_direction{-0.4f, -1.0f, -0.35f}; ///< that its light travels in, of any length but 0
     float air_temperature = 20.0f;                 ///< degrees C
     float air_transfer = 10.0f;                    ///< W/(m^2 K), from air to surfaces
+};
+
+/// The wind that blows over sand, and what it takes along.
+struct WindSettings {
+    glm::vec3 direction{1.0f, 0.0f, 0.0f}; ///< that it blows in, of any length but 0; level
+    float friction_velocity = 0.0f;        ///< u*, m/s; 0: there is none
+    float roughness_length = 1e-3f;        ///< z0, m
+    float air_density = 1.2f;              ///< kg/m^3
+    float flux = 1.8f;                     ///< C of Bagnold 1941
+    float hop_length = 0.3f;               ///< m
+    float time_scale = 1.0f;               ///< seconds of erosion in one of motion
 };
 
 /// The air that dust drifts with, and how it does.
@@ -279,6 +302,7 @@ struct Scene {
     PbfSettings pbf;
     DustSettings dust;
     HeatSettings heat;
+    WindSettings wind;
     TimeSettings time;
     std::vector<FluidBody> fluids;
     std::vector<SolidBody> solids;
@@ -301,6 +325,12 @@ struct Scene {
            std::ranges::any_of(scene.colliders, has_temperature) ||
            std::ranges::any_of(scene.emitters,
                                [&](const EmitterBody& emitter) { return has_temperature(emitter.fluid); });
+}
+
+/// Whether there is sand.
+[[nodiscard]] inline bool has_sand(const Scene& scene)
+{
+    return std::ranges::any_of(scene.solids, &SolidBody::wind_erodes);
 }
 
 /// All bodies that are fluid or may turn into it: the fluids, then the solids, then what emitters bring.
