@@ -1189,6 +1189,49 @@ mutation "viscosity: the force stays where it is solved for" \
     'interaction_j.z' \
     conformance_tests 'States/PassConformance.SolvedViscosity/RandomWendland'
 
+# --- wind ---------------------------------------------------------------------------------------------------------------
+
+mutation "wind: sheltered places lose sand, too" \
+    shaders/sim/wind_erode.comp \
+    'share * visibility[slot] *' \
+    'share *' \
+    conformance_tests 'SandTest.NoSandLeavesShelteredPlaces'
+mutation "wind: it takes sand below its threshold" \
+    shaders/sim/wind_erode.comp \
+    'stress > sand.threshold' \
+    'stress > 0.0' \
+    conformance_tests 'SandTest.BelowTheThresholdNothingMoves'
+mutation "wind: it takes 10 % more than its flux" \
+    engine/sim/wind.cpp \
+    'its.pick_up = static_cast<float>(bagnold' \
+    'its.pick_up = 1.1f * static_cast<float>(bagnold' \
+    conformance_tests 'SandTest.AFlatBedLosesItsFluxOverTheLengthOfAHop'
+mutation "wind: sand at the foot of a cliff slides" \
+    shaders/include/ground.glsl \
+    'return slope > tangent && drop > LEAST_DROP * tangent * way' \
+    'return slope > tangent' \
+    conformance_tests 'SandTest.NoSandLeavesShelteredPlaces'
+mutation "wind: all who rest find room at once" \
+    shaders/sim/land.comp \
+    'id[range.x] < its_id' \
+    'id[range.x] < 0u' \
+    conformance_tests 'SandTest.StepsAndLooksAreTheTwins'
+mutation "wind: the ground's slope is that of one axis" \
+    shaders/sim/ground.comp \
+    'top * vec2(x, y)' \
+    'top * vec2(x, 0.0)' \
+    conformance_tests 'SandTest.StepsAndLooksAreTheTwins'
+mutation "wind: hops get no drag" \
+    shaders/sim/hop.comp \
+    '1.0 - exp(-params.dt / sand.response_time)' \
+    'params.dt / sand.response_time * 0.5' \
+    conformance_tests 'SandTest.GrainsHopAsFarAsTheyAreMeantTo:SandTest.StepsAndLooksAreTheTwins'
+mutation "wind: sand lost beyond the border is not counted" \
+    shaders/sim/hop.comp \
+    'atomicAdd(ledger.sunk, 1u)' \
+    'atomicAdd(ledger.sunk, 0u)' \
+    conformance_tests 'SandTest.RerunsAreBitIdenticalAndTheLedgerIsExact'
+
 # --- heat ---------------------------------------------------------------------------------------------------------------
 
 mutation "heat: what a float cannot hold is lost" \
