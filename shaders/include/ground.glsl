@@ -1,5 +1,5 @@
-// The ground that sand lies on, seen from above: of each texel of a depth map (shared/visibility.h), a spacing wide, the plane that
-// fits the tops around it best. Include it after the declarations of `view`, the map's VisibilityParams, `wind`, and `ground`.
+// The ground that sand lies on, seen from above: of each texel of a depth map (shared/visibility.h), a spacing wide, the plane
+// that fits the tops around it best. Include it after the declarations of `view`, the map's VisibilityParams, `wind`, and `ground`.
 #ifndef GROUND_GLSL
 #define GROUND_GLSL
 

@@ -1,5 +1,5 @@
-// How the still particles around a place fill it, and hold up what is there. Include it after the declarations of `params`, `wind`,
-// `position` and `position_texels`, with CELL_START_BINDING defined, in a pass whose TILE is 1.
+// How the still particles around a place fill it, and hold up what is there. Include it after the declarations of `params`,
+// `wind`, `position` and `position_texels`, with CELL_START_BINDING defined, in a pass whose TILE is 1.
 #ifndef SOLID_AROUND_GLSL
 #define SOLID_AROUND_GLSL
 #include "include/image_walk.glsl"

@@ -1,7 +1,7 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
-// The plane that fits the tops of the columns around each texel best, by least squares (include/ground.glsl). Where nothing stands
-// it is the floor. Twin: engine/reference/wind.cpp.
+// The plane that fits the tops of the columns around each texel best, by least squares (include/ground.glsl). Where nothing
+// stands it is the floor. Twin: engine/reference/wind.cpp.
 #include "include/invocation.glsl"
 #include "shared/sph_params.h"
 #include "shared/visibility.h"

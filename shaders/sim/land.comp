@@ -1,8 +1,8 @@
 #version 460
 #extension GL_EXT_control_flow_attributes : require
 #extension GL_GOOGLE_include_directive : require
-// Loose sand at rest is to be solid where there is room: where it does not fill space more than once together with the solids and,
-// as if they all were, with those at rest around it of smaller id. Nobody is solid yet: land_apply.comp makes them so. Twin:
+// Loose sand at rest is to be solid where there is room: where it does not fill space more than once together with the solids
+// and, as if they all were, with those at rest around it of smaller id. Nobody is solid yet: land_apply.comp makes them so. Twin:
 // engine/reference/wind.cpp.
 #define CELL_START_BINDING 1
 #include "include/candidate.glsl"

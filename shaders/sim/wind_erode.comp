@@ -1,7 +1,7 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
-// Sand at the surface: the wind takes what it is able to since the last look, counted as damage, and whose damage is complete hops.
-// Where the ground is too steep sand begins to slide. Nobody leaves from under others. Twin: engine/reference/wind.cpp.
+// Sand at the surface: the wind takes what it is able to since the last look, counted as damage, and whose damage is complete
+// hops. Where the ground is too steep sand begins to slide. Nobody leaves from under others. Twin: engine/reference/wind.cpp.
 #include "include/invocation.glsl"
 #include "shared/particle_state.h"
 #include "shared/pool_changes.h"
