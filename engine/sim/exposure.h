@@ -4,6 +4,7 @@
 
 #include "gpu/commands.h"
 #include "particle_buffers/particle_buffers.h"
+#include "shared/exposure.h"
 #include "sim/fluid_kernels.h"
 #include "sim/neighbor_grid.h"
 
@@ -33,7 +34,7 @@ public:
 private:
     gpu::Kernel kernel_;
     gpu::Buffer exposure_;
-    float area_scale_;
+    shared::ExposurePush scales_; ///< but for the range
 };
 
 } // namespace meltpoint::sim
