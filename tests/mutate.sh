@@ -763,6 +763,61 @@ mutation "solids: fronts go on where they should come from" \
     'way[i] - entry + ' \
     'way[i] + ' \
     unit_tests 'DissolveFront.*'
+mutation "exposure: the sides of thin things cancel out" \
+    shaders/sim/exposure.comp \
+    'max(push.area_scale * size, push.faces * thinness)' \
+    'push.area_scale * size' \
+    conformance_tests 'ExposureTest.WhatIsThinIsExposedOnAllItsSides'
+mutation "exposure: walls are open" \
+    shaders/sim/exposure.comp \
+    'mix(vec3(1.0), vec3(-1.0), reflects)' \
+    'vec3(1.0)' \
+    conformance_tests 'ExposureTest.WhatStandsAtAWallIsNotExposedThere'
+mutation "exposure: as much as one side of the surface has" \
+    engine/particles/sph_kernel.cpp \
+    'return 1.0 / exposed;' \
+    'return 0.5 / exposed;' \
+    conformance_tests 'ExposureTest.LayersOfALatticeAddUpToItsFace'
+mutation "visibility: the map of the farthest" \
+    shaders/sim/visibility_depth.comp \
+    'atomicMin(' \
+    'atomicMax(' \
+    conformance_tests 'VisibilityTest.*'
+mutation "melting: the sun shines through solids" \
+    shaders/sim/warm.comp \
+    'facing * visibility[slot]' \
+    'facing' \
+    conformance_tests 'MeltingTest.LooksAreTheTwins'
+mutation "melting: water does not cover ice" \
+    shaders/sim/warm.comp \
+    'float bare = 1.0 - min(filling / COVER_FILLING, 1.0);' \
+    'float bare = 1.0;' \
+    conformance_tests 'MeltingTest.LooksAreTheTwins'
+mutation "melting: a tenth of the latent heat is spared" \
+    shaders/sim/melt.comp \
+    '>= heat.of[material].latent_heat' \
+    '>= 0.9 * heat.of[material].latent_heat' \
+    conformance_tests 'MeltingTest.TheSunMeltsWhatItsPowerAmountsTo'
+mutation "melting: looks are rare" \
+    engine/sim/melting.cpp \
+    '0.025 * shortest_melting' \
+    '0.5 * shortest_melting' \
+    conformance_tests 'MeltingTest.TheSunMeltsWhatItsPowerAmountsTo'
+mutation "freezing: in mid-water" \
+    shaders/sim/freeze.comp \
+    'if (touches_solid(position[i].xyz)) {' \
+    'if (true) {' \
+    conformance_tests 'MeltingTest.LooksAreTheTwins'
+mutation "freezing: what is frozen counts as moving" \
+    engine/sim/simulation.cpp \
+    '- found.died - found.frozen' \
+    '- found.died' \
+    conformance_tests 'MeltingTest.WaterFreezesToAColdPlateAndNowhereElse'
+mutation "heat: the time since the last look is twice as long" \
+    engine/sim/simulation.cpp \
+    'time - looked_at_);' \
+    '2.0 * (time - looked_at_));' \
+    conformance_tests 'MeltingTest.LooksAreTheTwins'
 mutation "emitters: births are where their nozzle is, whenever in a step they came" \
     shaders/sim/birth.comp \
     'birth_position(position[i].xyz, velocity[i].xyz, release_time[id[i]], time)' \
