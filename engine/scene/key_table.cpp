@@ -330,6 +330,7 @@ std::vector<SceneKey> make_scene_keys()
         k("render.color_range", FIELD(render.color_range), "kg/m^3, m/s or Pa", Range{-1e12, 1e12}, "[lowest, highest] of the color scale; auto: fixed, from the scene"),
         flag<Scene>("render.floor", FIELD(render.floor), "a ground plane at the domain's lowest face; none in two dimensions"),
         k("render.splat_radius", FIELD(render.splat_radius), "spacings", Range{0.1, 5}, "of a fluid particle's sphere"),
+        k("render.blend_time", FIELD(render.blend_time), "s", Range{0, 1e6}, "in which what was solid takes on the color of its fluid"),
         k("render.background", FIELD(render.background), "linear RGB", UNIT, "color behind everything"),
     };
 }

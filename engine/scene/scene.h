@@ -262,6 +262,7 @@ struct RenderSettings {
     std::optional<glm::vec2> color_range; ///< in the mode's unit; auto: a fixed range derived from the scene
     bool floor = true;                    ///< a ground plane at the domain's lowest face
     float splat_radius = 0.6f;            ///< of a fluid sphere, in particle spacings
+    float blend_time = 0.4f;              ///< s, in which what was solid takes on the color of its fluid
     glm::vec3 background{0.93f, 0.95f, 0.97f};
 };
 

@@ -13,6 +13,7 @@ namespace meltpoint::sim {
 
 using gpu::read;
 using gpu::read_write;
+using gpu::write;
 
 namespace {
 
@@ -83,16 +84,18 @@ void Melting::record_heat(gpu::Commands& commands, const FluidKernels& kernels, 
 }
 
 void Melting::record_changes(gpu::Commands& commands, const gpu::Buffer& params, const ParticleBuffers& particles,
-                             const NeighborGrid& grid, const gpu::Buffer& changes) const
+                             const NeighborGrid& grid, const gpu::Buffer& release_time, const gpu::Buffer& changes,
+                             float time) const
 {
     const gpu::Scope scope(commands, "melt and freeze");
     commands.dispatch(freeze_, particles.moving, gpu::NoPush{},
                       {read(params), read(grid.cell_start), read(params_), read(particles.id), read(heat_.enthalpy()),
                        read(particles.position), read_write(particles.attributes), read_write(particles.velocity),
-                       read_write(changes)});
-    commands.dispatch(melt_, particles.count - particles.moving, gpu::NoPush{},
+                       write(release_time), read_write(changes)});
+    commands.dispatch(melt_, particles.count - particles.moving, time,
                       {read(params), read(heat_.params()), read(params_), read(particles.id), read(heat_.enthalpy()),
-                       read_write(particles.attributes), read_write(particles.velocity), read_write(changes)});
+                       read_write(particles.attributes), read_write(particles.velocity), write(release_time),
+                       read_write(changes)});
 }
 
 std::vector<glm::vec4> Melting::download_exposure() const

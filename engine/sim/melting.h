@@ -39,9 +39,11 @@ public:
     void record_heat(gpu::Commands& commands, const FluidKernels& kernels, const gpu::Buffer& params,
                      const ParticleBuffers& particles, const NeighborGrid& grid, double seconds) const;
 
-    /// Solids melt and fluid freezes, counted in `changes`, shared::PoolChanges: they lie among the others yet.
+    /// Solids melt and fluid freezes at `time` (s), counted in `changes`, shared::PoolChanges: they lie among the
+    /// others yet. When a solid melts is noted in release_time, by id.
     void record_changes(gpu::Commands& commands, const gpu::Buffer& params, const ParticleBuffers& particles,
-                        const NeighborGrid& grid, const gpu::Buffer& changes) const;
+                        const NeighborGrid& grid, const gpu::Buffer& release_time, const gpu::Buffer& changes,
+                        float time) const;
 
     /// s of motion, the longest from one look to the next: in it sun and air melt a fortieth of a particle, for
     /// what a particle gets beyond its latent heat is lost to the next one. Infinite where neither melts anything.

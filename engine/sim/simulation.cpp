@@ -179,7 +179,8 @@ void Simulation::erode(double time)
     }
     erosion_->record_look(commands, params_buffer_, particles_, static_cast<float>(time));
     if (melting_) {
-        melting_->record_changes(commands, params_buffer_, particles_, grid_, erosion_->changes());
+        melting_->record_changes(commands, params_buffer_, particles_, grid_, erosion_->release_time(),
+                                 erosion_->changes(), static_cast<float>(time));
     }
     if (emission_) {
         emission_->record_calls(commands, params_buffer_, particles_, erosion_->release_time(), erosion_->changes(),

@@ -61,6 +61,8 @@ public:
     [[nodiscard]] const ParticleBuffers& particles() const { return particles_; }
     /// As the passes have them.
     [[nodiscard]] const shared::SphParams& params() const { return params_; }
+    /// When fronts or heat have freed who is solid no more, or fronts will: float by id, s. Null where nothing does.
+    [[nodiscard]] const gpu::Buffer* release_time() const { return erosion_ ? &erosion_->release_time() : nullptr; }
     /// Steps since the start.
     [[nodiscard]] std::uint64_t step() const { return step_; }
     /// s since the start.
