@@ -763,6 +763,16 @@ mutation "solids: fronts go on where they should come from" \
     'way[i] - entry + ' \
     'way[i] + ' \
     unit_tests 'DissolveFront.*'
+mutation "picture: what melts has its fluid's color at once" \
+    shaders/render/resolve.frag \
+    'smoothstep(0.0, params.blend_time, params.time - freed_at[id[particle]])' \
+    '1.0' \
+    image_tests 'FrameTest.WhatWasSolidTakesOnTheColorOfItsFluid'
+mutation "freezing: a front that has passed frees ice again" \
+    shaders/sim/freeze.comp \
+    'release_time[id[i]] = uintBitsToFloat(0x7f800000u);' \
+    '' \
+    conformance_tests 'MeltingTest.WaterFreezesToAColdPlateAndNowhereElse'
 mutation "exposure: the sides of thin things cancel out" \
     shaders/sim/exposure.comp \
     'max(push.area_scale * size, push.faces * thinness)' \
