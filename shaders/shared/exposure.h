@@ -19,6 +19,9 @@ SHARED_CONSTANT float EXPOSURE_SUPPORT = 3.5f; // support radius, in spacings
 // more than 0.1; the third layer of a lattice has 0.005 to 0.03.
 SHARED_CONSTANT float LEAST_EXPOSURE = 0.1f;
 
+// Fluid a spacing off a surface covers it where it fills so much of the space: it erodes there, and sun and air do not reach it.
+SHARED_CONSTANT float COVER_FILLING = 0.5f;
+
 struct ExposurePush {
     float area_scale; // A over |sum_j s_j q (1-q)^3 x_ij / r_ij| and the face of a lattice cell, s_j the weights
     uint first;       // of the still particles, the one to begin with
