@@ -52,8 +52,10 @@ struct FrameStatistics {
     std::uint64_t sunk = 0;                      ///< likewise, dust at the end of its life among them
     std::optional<double> enthalpy;              ///< J, of all fluid and solid; empty where heat is not followed
     std::optional<double> exposed_area;          ///< m^2, of solids, likewise
-    std::optional<double> rate_melt; ///< kg/s that melted, net, mean since the frame before; empty in the first
-    std::optional<double> rate_dissolve; ///< likewise of what fronts have freed
+    std::optional<double> rate_melt;        ///< kg/s that melted, net, mean since the frame before; empty in the first
+    std::optional<double> rate_dissolve;    ///< likewise of what fronts have freed
+    std::optional<double> rate_hydraulic;   ///< likewise of what flow has carried off, less what has settled
+    std::optional<std::uint64_t> deposited; ///< particles of sediment that became solid again, since the start
 };
 
 /// Everything but frame, time, steps, dt, neighbors and wall times.

@@ -340,6 +340,7 @@ public:
             const shared::Ledger ledger = simulation->ledger();
             statistics.emitted = ledger.emitted;
             statistics.sunk = ledger.sunk;
+            statistics.deposited = simulation->deposited();
             if (const auto heat = simulation->heat_statistics(particles)) {
                 statistics.enthalpy = heat->enthalpy;
                 statistics.exposed_area = heat->exposed_area;
@@ -351,6 +352,7 @@ public:
             };
             statistics.rate_melt = rate(shared::CAUSE_MELT);
             statistics.rate_dissolve = rate(shared::CAUSE_FRONT);
+            statistics.rate_hydraulic = rate(shared::CAUSE_HYDRAULIC);
         }
         freed_mass_ = statistics.freed_mass;
         time_ = statistics.time;

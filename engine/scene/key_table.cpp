@@ -310,6 +310,12 @@ std::vector<SceneKey> make_scene_keys()
         k("heat.air_temperature", FIELD(heat.air_temperature), "C", Range{-273.15, 1e5}, "of the air, which warms or cools solids where they are bare"),
         k("heat.air_transfer", FIELD(heat.air_transfer), "W/(m^2 K)", Range{0, 1e9}, "from the air to surfaces: 5 to 25 where it is still, 100 in the wind"),
 
+        k("hydraulic.consistency", FIELD(hydraulic.consistency), "Pa s^n", Range{0, 1e6}, "of the flow that erodes: its shear stress is consistency (shear rate)^exponent, the shear rate the speed along the surface over a particle spacing"),
+        k("hydraulic.exponent", FIELD(hydraulic.exponent), "", Range{0.01, 4}, "n of that power law: 1 is a Newtonian fluid, below it one that shear thins"),
+        k("hydraulic.time_scale", FIELD(hydraulic.time_scale), "", Range{1e-6, 1e9}, "seconds of erosion in one of motion"),
+        k("hydraulic.deposition_speed", FIELD(hydraulic.deposition_speed), "m/s", Range{0, 1e3}, "slower sediment that lies on a solid or the floor is at rest; 0: none ever is"),
+        k("hydraulic.deposition_time", FIELD(hydraulic.deposition_time), "s", Range{1e-4, 1e4}, "of rest, after which it is solid again"),
+
         k("time.dt", FIELD(time.dt), "s", Range{1e-9, 1}, "step; auto: as long as stability allows, chosen anew for every step, the last of a frame ending at its time"),
         k("time.frame_rate", FIELD(time.frame_rate), "1/s", Range{1e-2, 1e6}, "frames in a second of simulated time"),
         k("time.frames", FIELD(time.frames), "", Range{1, 1e6}, "number of frames, frame 0 (the initial state) included"),
@@ -444,6 +450,15 @@ std::vector<SolidKey> make_solid_keys()
         k("dissolve_grain", FIELD(dissolve.grain), "m", Range{1e-5, 1e4}, "size of that noise's coarsest lumps; the finest are an eighth of it"),
         flag<SolidBody>("melts", FIELD(melts), "it turns into fluid where it has taken in its latent heat, from the sun, the air ([heat]) or what touches it"),
         k("absorptivity", FIELD(absorptivity), "", UNIT, "part of the sun's power that its surface takes in"),
+        flag<SolidBody>("erodes", FIELD(erosion.erodes), "flow along it carries it off: it becomes sediment, a fluid of its own density and viscosity ([hydraulic])"),
+        k("erosion_threshold", FIELD(erosion.threshold), "Pa", Range{0, 1e9}, "shear stress of the flow up to which it holds, where it has no grain_size"),
+        k("grain_size", FIELD(erosion.grain_size), "m", Range{1e-6, 10}, "of loose sand or gravel, which gives the threshold after Shields (Soulsby & Whitehouse 1997) in the scene's first fluid; auto: erosion_threshold"),
+        k("erosion_rate", FIELD(erosion.rate), "kg/(m^2 s Pa^a)", Range{0, 1e9}, "lost where the stress is 1 Pa above the threshold"),
+        k("erosion_exponent", FIELD(erosion.exponent), "", Range{0.1, 4}, "a of that law: the loss is erosion_rate (stress - threshold)^a"),
+        flag<SolidBody>("deposits", FIELD(erosion.deposits), "its sediment becomes solid again where it comes to rest"),
+        k("strength_contrast", FIELD(erosion.strength_contrast), "", Range{1, 1000}, "noise makes its strongest parts so many times as strong as usual, and divides by it the strength of the weakest; strength multiplies the threshold and divides the rate; 1: all are alike"),
+        k("strength_grain", FIELD(erosion.strength_grain), "m", Range{1e-5, 1e4}, "size of that noise's coarsest lumps or layers"),
+        k("strength_layers", FIELD(erosion.strength_layers), "", PLACE, "direction across layers (strata), of any length but 0; auto: lumps"),
         k("color", FIELD(solid_color), "linear RGB", UNIT, "of the solid, in render.color = \"material\"; gray in the other modes"),
         k("fluid_color", FIELD(color), "linear RGB", UNIT, "of the fluid"),
     }), thermal_keys<SolidBody>(ITSELF));

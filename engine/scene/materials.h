@@ -24,6 +24,7 @@ struct Material {
     float temperature = 0.0f;    ///< degrees C, at the start
     bool melts = false;
     float absorptivity = 0.0f; ///< of the sun's power, of solids
+    Erodibility erosion{};     ///< of solids that flow erodes
 
     bool operator==(const Material&) const = default;
 };
@@ -97,6 +98,7 @@ inline SceneMaterials scene_materials(const Scene& scene)
         Material material = warm_material(body, true);
         material.melts = body.melts;
         material.absorptivity = heat ? body.absorptivity : 0.0f;
+        material.erosion = body.erosion.erodes ? body.erosion : Erodibility{};
         material.friction = body.friction;
         material.contact_angle = body.contact_angle;
         material.solid_color = body.solid_color;

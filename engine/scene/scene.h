@@ -148,6 +148,21 @@ struct DissolveFront {
 
 enum class SolidBecomes { Fluid, Dust };
 
+/// How flow carries a solid off (shared/hydraulic.h), and where the solid is stronger or weaker.
+struct Erodibility {
+    bool erodes = false;
+    float threshold = 1.0f;          ///< tau_c, Pa, where there is no grain size
+    std::optional<float> grain_size; ///< m, whose threshold is that of Shields
+    float rate = 10.0f;              ///< K_eps, kg/(m^2 s Pa^exponent)
+    float exponent = 1.0f;           ///< a
+    bool deposits = true;            ///< its sediment becomes solid again
+    float strength_contrast = 1.0f; ///< the strongest is so many times as strong as usual, and the weakest a part of it
+    float strength_grain = 0.1f;    ///< m, size of the coarsest lumps, or layers
+    std::optional<glm::vec3> strength_layers; ///< across layers, of any length but 0; auto: lumps
+
+    bool operator==(const Erodibility&) const = default;
+};
+
 /// A solid that stands still and may turn into fluid, or crumble into dust. What FluidBody says is of that fluid; its
 /// velocities are not used.
 struct SolidBody : FluidBody {
@@ -158,6 +173,7 @@ struct SolidBody : FluidBody {
     DissolveFront dissolve;
     bool melts = false;        ///< where heat has brought it to the end of its melting point
     float absorptivity = 0.7f; ///< part of the sun's power that it takes in
+    Erodibility erosion;
 };
 
 /// A round nozzle; it points along the emitter's velocity.
@@ -205,6 +221,15 @@ struct HeatSettings {
     glm::vec3 sun_direction{-0.4f, -1.0f, -0.35f}; ///< that its light travels in, of any length but 0
     float air_temperature = 20.0f;                 ///< degrees C
     float air_transfer = 10.0f;                    ///< W/(m^2 K), from air to surfaces
+};
+
+/// The flow that erodes, and how its sediment settles (shared/hydraulic.h).
+struct HydraulicSettings {
+    float consistency = 1.0f;       ///< K, Pa s^exponent
+    float exponent = 0.5f;          ///< n
+    float time_scale = 1.0f;        ///< seconds of erosion in one of motion
+    float deposition_speed = 0.05f; ///< m/s
+    float deposition_time = 0.2f;   ///< s
 };
 
 /// The air that dust drifts with, and how it does.
@@ -280,6 +305,7 @@ struct Scene {
     PbfSettings pbf;
     DustSettings dust;
     HeatSettings heat;
+    HydraulicSettings hydraulic;
     TimeSettings time;
     std::vector<FluidBody> fluids;
     std::vector<SolidBody> solids;
@@ -302,6 +328,21 @@ struct Scene {
            std::ranges::any_of(scene.colliders, has_temperature) ||
            std::ranges::any_of(scene.emitters,
                                [&](const EmitterBody& emitter) { return has_temperature(emitter.fluid); });
+}
+
+/// Whether flow erodes anything.
+[[nodiscard]] inline bool has_hydraulic(const Scene& scene)
+{
+    return std::ranges::any_of(scene.solids, [](const SolidBody& solid) { return solid.erosion.erodes; });
+}
+
+/// The fluid that grains lie in: the scene's first, or the first that emitters bring. Null where there is none.
+[[nodiscard]] inline const FluidBody* eroding_fluid(const Scene& scene)
+{
+    if (!scene.fluids.empty()) {
+        return &scene.fluids.front();
+    }
+    return scene.emitters.empty() ? nullptr : &scene.emitters.front().fluid;
 }
 
 /// All bodies that are fluid or may turn into it: the fluids, then the solids, then what emitters bring.

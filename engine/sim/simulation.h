@@ -13,7 +13,9 @@
 #include "sim/dust.h"
 #include "sim/emission.h"
 #include "sim/erosion.h"
+#include "sim/exposure.h"
 #include "sim/fluid_kernels.h"
+#include "sim/hydraulic.h"
 #include "sim/implicit_viscosity.h"
 #include "sim/melting.h"
 #include "sim/neighbor_grid.h"
@@ -27,7 +29,8 @@ struct SimulationSettings {
     FluidOptions options;
     std::optional<shared::DustParams> dust; ///< where some of the solids crumble
     EmissionSettings emission;
-    std::optional<MeltingSettings> melting; ///< where heat is followed
+    std::optional<MeltingSettings> melting;     ///< where heat is followed
+    std::optional<HydraulicSettings> hydraulic; ///< where flow erodes solids
 };
 
 /// The params with the numbers of particles and the grid size filled in: all of them move.
@@ -92,6 +95,11 @@ public:
     /// J/kg, by id; empty where heat is not followed. Waits.
     [[nodiscard]] std::vector<double> enthalpy() const;
 
+    /// How far hydraulic erosion has come, 0 to 1, by id; empty where nothing erodes. Waits.
+    [[nodiscard]] std::vector<double> damage() const;
+    /// Particles of sediment that have become solid again since the start.
+    [[nodiscard]] std::uint64_t deposited() const { return deposited_; }
+
     /// Particles that have come and gone since the start. Waits.
     [[nodiscard]] shared::Ledger ledger() const;
     /// Births for which an emitter had no particle left, of each, since the start.
@@ -146,6 +154,8 @@ private:
     /// Where a look at the solids and the dead is due: those that are due to turn into fluid or dust do, those that are
     /// to be born soon are called up, and the pool is parted anew. `time` in s since the start.
     void erode(double time);
+    /// Where solids are exposed and what of them is seen: whenever others are solid.
+    void record_surface(gpu::Commands& commands) const;
     /// Throws where there is a fault; `time` of it in s since the start.
     static void check_status(const shared::Status& status, double time);
     /// Steps from this look to the next.
@@ -181,7 +191,9 @@ private:
     std::optional<Erosion> erosion_;
     std::optional<Dust> dust_;
     std::optional<Emission> emission_;
+    std::optional<Exposure> exposure_; ///< where a driver asks for it
     std::optional<Melting> melting_;
+    std::optional<Hydraulic> hydraulic_;
     ParticleBuffers particles_;
     NeighborGrid grid_;
     gpu::Buffer params_buffer_;
@@ -195,6 +207,7 @@ private:
     std::uint64_t step_ = 0;
     std::uint64_t next_erosion_ = 0;    ///< the step before which solids are looked at
     double looked_at_ = 0.0;            ///< s, when that was done last
+    std::uint64_t deposited_ = 0;       ///< particles, since the start
     std::uint32_t gone_ = 0;            ///< particles that are dead and lie behind all others
     float dt_limit_ = 0.0f;             ///< s, how long the last step might have been
     double seconds_ = 0.0;              ///< since the start

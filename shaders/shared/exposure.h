@@ -26,6 +26,9 @@ SHARED_CONSTANT float LEAST_EXPOSURE = 0.1f;
 // corner 0.36, in a sheet, in a chain and of a lone particle 0.43, 0.18 and 0.08.
 SHARED_CONSTANT float THIN_FILLING = 0.55f;
 
+// Fluid a spacing off a surface covers it where it fills so much of the space: it erodes there, and sun and air do not reach it.
+SHARED_CONSTANT float COVER_FILLING = 0.5f;
+
 struct ExposurePush {
     float area_scale;    // A over |sum_j s_j q (1-q)^3 x_ij / r_ij| and the face of a lattice cell, s_j the weights
     float filling_scale; // c over sum_j s_j (1-q)^4 (1+4q)

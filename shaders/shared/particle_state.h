@@ -40,6 +40,7 @@ SHARED_CONSTANT uint CAUSE_SHIFT = 24u;
 SHARED_CONSTANT uint CAUSE_NONE = 0u;
 SHARED_CONSTANT uint CAUSE_FRONT = 1u;
 SHARED_CONSTANT uint CAUSE_MELT = 2u;
+SHARED_CONSTANT uint CAUSE_HYDRAULIC = 3u;
 SHARED_FUNCTION uint cause_of(uint attributes) { return (attributes >> CAUSE_SHIFT) & 7u; } // CAUSE_*
 SHARED_FUNCTION uint freed_as(uint attributes, uint state, uint cause)
 {

@@ -9,6 +9,7 @@ struct PoolChanges {
     uint freed; // still ones that will move
     uint died;   // moving ones that are dead
     uint frozen; // moving ones that are solid
+    uint deposited; // moving ones that are solid, of sediment
     uint called[MAX_EMITTERS]; // dead ones that were called up to be born, by emitter
 };
 
