@@ -68,10 +68,13 @@ FrameStatistics measure(const ParticleSet& particles, const shared::SphParams& p
         const std::uint32_t attributes = particles.attributes[i];
         const std::uint32_t state = shared::particle_state(attributes);
         count_state(statistics, state);
+        const auto mass = static_cast<double>(particles.mass[i]);
+        if (state != shared::STATE_SOLID) {
+            statistics.freed_mass[shared::cause_of(attributes)] += mass;
+        }
         if (state == shared::STATE_DEAD) {
             continue;
         }
-        const auto mass = static_cast<double>(particles.mass[i]);
         const glm::dvec3 x(particles.position[i]);
         const glm::dvec3 v(particles.velocity[i]);
         statistics.mass += mass;
