@@ -346,7 +346,8 @@ public:
                 statistics.exposed_area = heat->exposed_area;
             }
         }
-        if (freed_mass_ && statistics.time > time_) {
+        const bool erodes = simulation && simulation->release_time() != nullptr;
+        if (erodes && freed_mass_ && statistics.time > time_) {
             const auto rate = [&](std::uint32_t cause) {
                 return (statistics.freed_mass[cause] - (*freed_mass_)[cause]) / (statistics.time - time_);
             };
