@@ -71,16 +71,18 @@ void Hydraulic::record_scour(gpu::Commands& commands, const gpu::Buffer& params,
 }
 
 void Hydraulic::record_changes(gpu::Commands& commands, const gpu::Buffer& params, const ParticleBuffers& particles,
-                               const NeighborGrid& grid, const gpu::Buffer& changes, double seconds) const
+                               const NeighborGrid& grid, const gpu::Buffer& release_time, const gpu::Buffer& changes,
+                               double time, double seconds) const
 {
     const gpu::Scope scope(commands, "deposit and detach");
     commands.dispatch(deposit_, particles.moving, static_cast<float>(seconds),
                       {read(params), read(grid.cell_start), read(params_), read(particles.id), read(particles.position),
                        read_write(damage_), read_write(particles.attributes), read_write(particles.velocity),
-                       read_write(changes)});
-    commands.dispatch(detach_, particles.count - particles.moving, gpu::NoPush{},
+                       gpu::write(release_time), read_write(changes)});
+    commands.dispatch(detach_, particles.count - particles.moving, static_cast<float>(time),
                       {read(params), read(params_), read(particles.id), read_write(damage_),
-                       read_write(particles.attributes), read_write(particles.velocity), read_write(changes)});
+                       read_write(particles.attributes), read_write(particles.velocity), gpu::write(release_time),
+                       read_write(changes)});
 }
 
 double Hydraulic::longest_look() const

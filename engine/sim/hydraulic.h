@@ -35,9 +35,11 @@ public:
                       const NeighborGrid& grid, const Exposure& exposure, double seconds) const;
 
     /// Sediment becomes solid again where it has rested long enough, `seconds` after the last look, and solids are
-    /// freed that are worn away, counted in `changes`, shared::PoolChanges: they lie among the others yet.
+    /// freed that are worn away, counted in `changes`, shared::PoolChanges: they lie among the others yet. When a solid
+    /// is freed, `time` in s, is noted in release_time, by id.
     void record_changes(gpu::Commands& commands, const gpu::Buffer& params, const ParticleBuffers& particles,
-                        const NeighborGrid& grid, const gpu::Buffer& changes, double seconds) const;
+                        const NeighborGrid& grid, const gpu::Buffer& release_time, const gpu::Buffer& changes,
+                        double time, double seconds) const;
 
     /// s of motion, the longest from this look to the next: at the present rates nothing loses more than a fortieth of
     /// a particle in it, for what it loses beyond itself is not taken from the next one. Infinite where nothing erodes.

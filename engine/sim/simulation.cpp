@@ -208,7 +208,8 @@ void Simulation::erode(double time)
                                  erosion_->changes(), static_cast<float>(time));
     }
     if (hydraulic_) {
-        hydraulic_->record_changes(commands, params_buffer_, particles_, grid_, erosion_->changes(), seconds);
+        hydraulic_->record_changes(commands, params_buffer_, particles_, grid_, erosion_->release_time(),
+                                   erosion_->changes(), time, seconds);
     }
     if (emission_) {
         emission_->record_calls(commands, params_buffer_, particles_, erosion_->release_time(), erosion_->changes(),

@@ -19,7 +19,8 @@ layout(set = 0, binding = 4, scalar) readonly buffer Position { vec4 position[];
 layout(set = 0, binding = 5, scalar) buffer Damage { vec2 damage[]; }; // by id, two-floats
 layout(set = 0, binding = 6, scalar) buffer Attributes { uint attributes[]; };
 layout(set = 0, binding = 7, scalar) buffer Velocity { vec4 velocity[]; }; // w: mass, negative of boundary particles
-layout(set = 0, binding = 8, scalar) buffer Changes { PoolChanges changes; };
+layout(set = 0, binding = 8, scalar) writeonly buffer ReleaseTime { float release_time[]; }; // by id, s
+layout(set = 0, binding = 9, scalar) buffer Changes { PoolChanges changes; };
 
 // Whether the way to what is there leads down; where there is no gravity, every way does.
 bool is_below(vec3 way) { return dot(way, params.gravity) >= RESTING_COSINE * length(way) * length(params.gravity); }
@@ -71,6 +72,7 @@ void main()
     if (is_whole) {
         attributes[i] = with_state(attributes[i], STATE_SOLID);
         velocity[i] = vec4(vec3(0.0), -abs(velocity[i].w));
+        release_time[slot] = uintBitsToFloat(0x7f800000u); // no front is on its way to it
         atomicAdd(changes.deposited, 1u);
     }
 }

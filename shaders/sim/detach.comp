@@ -7,13 +7,15 @@
 #include "shared/particle_state.h"
 #include "shared/pool_changes.h"
 
+layout(push_constant, scalar) uniform Push { float time; }; // s
 layout(set = 0, binding = 0, scalar) uniform Params { SphParams params; };
 layout(set = 0, binding = 1, scalar) uniform Hydraulic { HydraulicParams hydraulic; };
 layout(set = 0, binding = 2, scalar) readonly buffer Id { uint id[]; };
 layout(set = 0, binding = 3, scalar) buffer Damage { vec2 damage[]; }; // by id, two-floats
 layout(set = 0, binding = 4, scalar) buffer Attributes { uint attributes[]; };
 layout(set = 0, binding = 5, scalar) buffer Velocity { vec4 velocity[]; }; // w: mass, negative of boundary particles
-layout(set = 0, binding = 6, scalar) buffer Changes { PoolChanges changes; };
+layout(set = 0, binding = 6, scalar) writeonly buffer ReleaseTime { float release_time[]; }; // by id, s
+layout(set = 0, binding = 7, scalar) buffer Changes { PoolChanges changes; };
 
 void main()
 {
@@ -26,6 +28,7 @@ void main()
         damage[slot] = vec2(1.0, 0.0);
         attributes[i] = freed_as(attributes[i], STATE_FLUID, CAUSE_HYDRAULIC);
         velocity[i].w = abs(velocity[i].w);
+        release_time[slot] = time;
         atomicAdd(changes.freed, 1u);
     }
 }
