@@ -1330,6 +1330,75 @@ mutation "liquids: they have no viscosity of their own" \
     '' \
     unit_tests 'SceneFile.*Liquid*'
 
+# --- hydraulic erosion ----------------------------------------------------------------------------------------------------
+
+mutation "scour: the flow towards the surface counts, too" \
+    shaders/sim/scour.comp \
+    'vec3 along = flow.xyz - dot(flow.xyz, surface.xyz) * surface.xyz;' \
+    'vec3 along = flow.xyz;' \
+    conformance_tests 'HydraulicTest.LooksAreTheTwins'
+mutation "scour: what is strong begins to go as early as the rest" \
+    shaders/sim/scour.comp \
+    'stress / its_strength - ' \
+    'stress - ' \
+    conformance_tests 'HydraulicTest.LooksAreTheTwins'
+mutation "scour: spray erodes as deep water does" \
+    shaders/sim/scour.comp \
+    'wet * loss' \
+    'loss' \
+    conformance_tests 'HydraulicTest.LooksAreTheTwins'
+mutation "scour: there is no threshold" \
+    shaders/sim/scour.comp \
+    ' - hydraulic.threshold[material];' \
+    ';' \
+    conformance_tests 'HydraulicTest.NothingComesFreeBelowTheThreshold'
+mutation "scour: the rate is linear in the excess" \
+    shaders/sim/scour.comp \
+    'pow(excess, hydraulic.exponent[material])' \
+    'excess' \
+    conformance_tests 'HydraulicTest.TheRateIsAPowerOfTheExcess'
+mutation "scour: looks come half as often" \
+    engine/sim/hydraulic.cpp \
+    'largest_loss = 0.025' \
+    'largest_loss = 0.05' \
+    conformance_tests 'HydraulicTest.NoLookTakesMoreThanAFortiethOfAParticle'
+mutation "detach: damage goes on beyond a particle" \
+    shaders/sim/detach.comp \
+    '        damage[slot] = vec2(1.0, 0.0);
+' \
+    '' \
+    conformance_tests 'HydraulicTest.LooksAreTheTwins'
+mutation "deposit: sediment sticks to flanks" \
+    shaders/sim/deposit.comp \
+    ' && is_below(way)' \
+    '' \
+    conformance_tests 'HydraulicTest.SedimentSlidesOffSteepFlanks'
+mutation "deposit: sediment heals while it falls" \
+    shaders/sim/deposit.comp \
+    'bool rests = length(velocity[i].xyz) < hydraulic.deposition_speed && (rests_on_floor(x) || rests_on_solid(x));' \
+    'bool rests = true;' \
+    conformance_tests 'HydraulicTest.SedimentThatRestsIsSolidAgain'
+mutation "deposit: water settles" \
+    shaders/sim/deposit.comp \
+    'cause_of(attributes[i]) != CAUSE_HYDRAULIC || ' \
+    '' \
+    conformance_tests 'HydraulicTest.SedimentThatRestsIsSolidAgain'
+mutation "deposit: what has settled counts as moving" \
+    engine/sim/simulation.cpp \
+    '- found.frozen - found.deposited;' \
+    '- found.frozen;' \
+    conformance_tests 'HydraulicTest.SedimentThatRestsIsSolidAgain'
+mutation "hydraulic: coarse grains move a fifth too early" \
+    engine/run/hydraulic_settings.cpp \
+    '+ 0.055 *' \
+    '+ 0.045 *' \
+    unit_tests 'Shields.CoarseGrainsHaveAConstantParameter'
+mutation "hydraulic: strata are lumps" \
+    engine/run/hydraulic_settings.cpp \
+    'if (erosion.strength_layers) {' \
+    'if (false) {' \
+    unit_tests 'Strength.OfLayersDependsOnTheWayAcrossThemAlone'
+
 # --- the machinery ------------------------------------------------------------------------------------------------------
 
 source_dir=build/mutations/source
