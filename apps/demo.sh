@@ -9,8 +9,8 @@ set -euo pipefail
 source "$(dirname "${BASH_SOURCE[0]}")/setup.sh"
 
 install=yes
-frames=out/teapot_drop
-video=out/teapot_drop.mp4
+frames=out/melt_teapot
+video=out/melt_teapot.mp4
 options=()
 while [ $# -gt 0 ]; do
     case $1 in
@@ -43,7 +43,7 @@ mkdir -p build
 configure release >build/configure.log 2>&1 || fail "cmake could not configure the build: see build/configure.log" 1
 build build/release --target meltpoint_program || fail "the build failed: its first error stands above" 1
 
-build/release/meltpoint render teapot_drop --out "$frames" --force "${options[@]}"
+build/release/meltpoint render melt_teapot --out "$frames" --force "${options[@]}"
 echo "Frames: $(realpath "$frames")/frame_0000.png and following"
 if [ -n "$video" ]; then
     echo "Video:  $(realpath "$video")"

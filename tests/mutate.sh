@@ -763,6 +763,71 @@ mutation "solids: fronts go on where they should come from" \
     'way[i] - entry + ' \
     'way[i] + ' \
     unit_tests 'DissolveFront.*'
+mutation "picture: what melts has its fluid's color at once" \
+    shaders/render/resolve.frag \
+    'smoothstep(0.0, params.blend_time, params.time - freed_at[id[particle]])' \
+    '1.0' \
+    image_tests 'FrameTest.WhatWasSolidTakesOnTheColorOfItsFluid'
+mutation "freezing: a front that has passed frees ice again" \
+    shaders/sim/freeze.comp \
+    'release_time[id[i]] = uintBitsToFloat(0x7f800000u);' \
+    '' \
+    conformance_tests 'MeltingTest.WaterFreezesToAColdPlateAndNowhereElse'
+mutation "exposure: the sides of thin things cancel out" \
+    shaders/sim/exposure.comp \
+    'max(push.area_scale * size, push.faces * thinness)' \
+    'push.area_scale * size' \
+    conformance_tests 'ExposureTest.WhatIsThinIsExposedOnAllItsSides'
+mutation "exposure: walls are open" \
+    shaders/sim/exposure.comp \
+    'mix(vec3(1.0), vec3(-1.0), reflects)' \
+    'vec3(1.0)' \
+    conformance_tests 'ExposureTest.WhatStandsAtAWallIsNotExposedThere'
+mutation "exposure: as much as one side of the surface has" \
+    engine/particles/sph_kernel.cpp \
+    'return 1.0 / exposed;' \
+    'return 0.5 / exposed;' \
+    conformance_tests 'ExposureTest.LayersOfALatticeAddUpToItsFace'
+mutation "visibility: the map of the farthest" \
+    shaders/sim/visibility_depth.comp \
+    'atomicMin(' \
+    'atomicMax(' \
+    conformance_tests 'VisibilityTest.*'
+mutation "melting: the sun shines through solids" \
+    shaders/sim/warm.comp \
+    'facing * visibility[slot]' \
+    'facing' \
+    conformance_tests 'MeltingTest.LooksAreTheTwins'
+mutation "melting: water does not cover ice" \
+    shaders/sim/warm.comp \
+    'float bare = 1.0 - min(filling / COVER_FILLING, 1.0);' \
+    'float bare = 1.0;' \
+    conformance_tests 'MeltingTest.LooksAreTheTwins'
+mutation "melting: a tenth of the latent heat is spared" \
+    shaders/sim/melt.comp \
+    '>= heat.of[material].latent_heat' \
+    '>= 0.9 * heat.of[material].latent_heat' \
+    conformance_tests 'MeltingTest.TheSunMeltsWhatItsPowerAmountsTo'
+mutation "melting: looks are rare" \
+    engine/sim/melting.cpp \
+    '0.025 * shortest_melting' \
+    '0.5 * shortest_melting' \
+    conformance_tests 'MeltingTest.TheSunMeltsWhatItsPowerAmountsTo'
+mutation "freezing: in mid-water" \
+    shaders/sim/freeze.comp \
+    'if (touches_solid(position[i].xyz)) {' \
+    'if (true) {' \
+    conformance_tests 'MeltingTest.LooksAreTheTwins'
+mutation "freezing: what is frozen counts as moving" \
+    engine/sim/simulation.cpp \
+    '- found.died - found.frozen' \
+    '- found.died' \
+    conformance_tests 'MeltingTest.WaterFreezesToAColdPlateAndNowhereElse'
+mutation "heat: the time since the last look is twice as long" \
+    engine/sim/simulation.cpp \
+    'time - looked_at_);' \
+    '2.0 * (time - looked_at_));' \
+    conformance_tests 'MeltingTest.LooksAreTheTwins'
 mutation "emitters: births are where their nozzle is, whenever in a step they came" \
     shaders/sim/birth.comp \
     'birth_position(position[i].xyz, velocity[i].xyz, release_time[id[i]], time)' \
@@ -1307,6 +1372,75 @@ mutation "liquids: they have no viscosity of their own" \
     'body.viscosity = liquid.viscosity;' \
     '' \
     unit_tests 'SceneFile.*Liquid*'
+
+# --- hydraulic erosion ----------------------------------------------------------------------------------------------------
+
+mutation "scour: the flow towards the surface counts, too" \
+    shaders/sim/scour.comp \
+    'vec3 along = flow.xyz - dot(flow.xyz, surface.xyz) * surface.xyz;' \
+    'vec3 along = flow.xyz;' \
+    conformance_tests 'HydraulicTest.LooksAreTheTwins'
+mutation "scour: what is strong begins to go as early as the rest" \
+    shaders/sim/scour.comp \
+    'stress / its_strength - ' \
+    'stress - ' \
+    conformance_tests 'HydraulicTest.LooksAreTheTwins'
+mutation "scour: spray erodes as deep water does" \
+    shaders/sim/scour.comp \
+    'wet * loss' \
+    'loss' \
+    conformance_tests 'HydraulicTest.LooksAreTheTwins'
+mutation "scour: there is no threshold" \
+    shaders/sim/scour.comp \
+    ' - hydraulic.threshold[material];' \
+    ';' \
+    conformance_tests 'HydraulicTest.NothingComesFreeBelowTheThreshold'
+mutation "scour: the rate is linear in the excess" \
+    shaders/sim/scour.comp \
+    'pow(excess, hydraulic.exponent[material])' \
+    'excess' \
+    conformance_tests 'HydraulicTest.TheRateIsAPowerOfTheExcess'
+mutation "scour: looks come half as often" \
+    engine/sim/hydraulic.cpp \
+    'largest_loss = 0.025' \
+    'largest_loss = 0.05' \
+    conformance_tests 'HydraulicTest.NoLookTakesMoreThanAFortiethOfAParticle'
+mutation "detach: damage goes on beyond a particle" \
+    shaders/sim/detach.comp \
+    '        damage[slot] = vec2(1.0, 0.0);
+' \
+    '' \
+    conformance_tests 'HydraulicTest.LooksAreTheTwins'
+mutation "deposit: sediment sticks to flanks" \
+    shaders/sim/deposit.comp \
+    ' && is_below(way)' \
+    '' \
+    conformance_tests 'HydraulicTest.SedimentSlidesOffSteepFlanks'
+mutation "deposit: sediment heals while it falls" \
+    shaders/sim/deposit.comp \
+    'bool rests = length(velocity[i].xyz) < hydraulic.deposition_speed && (rests_on_floor(x) || rests_on_solid(x));' \
+    'bool rests = true;' \
+    conformance_tests 'HydraulicTest.SedimentThatRestsIsSolidAgain'
+mutation "deposit: water settles" \
+    shaders/sim/deposit.comp \
+    'cause_of(attributes[i]) != CAUSE_HYDRAULIC || ' \
+    '' \
+    conformance_tests 'HydraulicTest.SedimentThatRestsIsSolidAgain'
+mutation "deposit: what has settled counts as moving" \
+    engine/sim/simulation.cpp \
+    '- found.frozen - found.deposited;' \
+    '- found.frozen;' \
+    conformance_tests 'HydraulicTest.SedimentThatRestsIsSolidAgain'
+mutation "hydraulic: coarse grains move a fifth too early" \
+    engine/run/hydraulic_settings.cpp \
+    '+ 0.055 *' \
+    '+ 0.045 *' \
+    unit_tests 'Shields.CoarseGrainsHaveAConstantParameter'
+mutation "hydraulic: strata are lumps" \
+    engine/run/hydraulic_settings.cpp \
+    'if (erosion.strength_layers) {' \
+    'if (false) {' \
+    unit_tests 'Strength.OfLayersDependsOnTheWayAcrossThemAlone'
 
 # --- the machinery ------------------------------------------------------------------------------------------------------
 

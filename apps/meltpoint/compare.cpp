@@ -81,8 +81,9 @@ int compare(const CompareOptions& options)
 
     std::vector<Section> sections;
     sim::SimulationSettings fixed = with_fixed_steps(settings.simulation); // the twin takes no others
-    fixed.emission = {}; // and knows only those who are there, no heat and no wind
+    fixed.emission = {}; // and knows only those who are there, and neither heat nor erosion
     fixed.melting.reset();
+    fixed.hydraulic.reset();
     fixed.wind.reset();
     sections.push_back({"initial state", conformance::compare_passes(context, initial, fixed)});
     if (options.steps > 0) {

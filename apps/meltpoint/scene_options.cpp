@@ -1,5 +1,9 @@
 #include "scene_options.h"
 
+#include <algorithm>
+
+#include <fmt/ranges.h>
+
 #include "core/error.h"
 #include "core/log.h"
 #include "run/mesh_scene.h"
@@ -31,8 +35,13 @@ void add_scene_options(CLI::App& command, SceneOptions& options)
     command
         .add_option("SCENE", options.scene,
                     "A scene file (.toml), the name of a built-in scene, or a mesh or a scan (a file or "
-                    "builtin:NAME), which is filled with fluid and dropped")
+                    "builtin:NAME) with a look")
         ->required();
+    command
+        .add_option("--look", options.look,
+                    "What becomes of a mesh or scan that is given as SCENE: drop, filled with fluid; melt, ice in the "
+                    "sun; vanish, dust in the wind [drop]")
+        ->type_name("LOOK");
     add_set_option(command, options);
     command
         .add_option(
@@ -43,9 +52,27 @@ void add_scene_options(CLI::App& command, SceneOptions& options)
     add_device_options(command, options);
 }
 
+namespace {
+
+std::optional<Look> find_look(const std::string& name)
+{
+    if (name.empty()) {
+        return std::nullopt;
+    }
+    const auto found = std::ranges::find(look_names(), name, &LookName::name);
+    if (found == look_names().end()) {
+        std::vector<std::string_view> names;
+        std::ranges::transform(look_names(), std::back_inserter(names), &LookName::name);
+        throw input_error("--look {}: there is no such look: {}", name, fmt::join(names, ", "));
+    }
+    return found->look;
+}
+
+} // namespace
+
 Scene load_scene(const SceneOptions& options)
 {
-    Scene scene = find_scene(options.scene, options.overrides);
+    Scene scene = find_scene(options.scene, options.overrides, find_look(options.look));
     if (!options.mesh.empty() && replace_meshes(scene, options.mesh) == 0) {
         throw input_error("--mesh: the scene {} has no mesh whose place {} could take", scene.name, options.mesh);
     }

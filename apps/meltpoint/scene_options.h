@@ -14,6 +14,7 @@ namespace meltpoint::program {
 struct SceneOptions {
     std::string scene;
     std::vector<std::string> overrides;
+    std::string look; ///< of a mesh that is given instead of a scene; empty: the default
     std::string mesh; ///< instead of every mesh of the scene; empty: keeps them
     std::string device;
     bool validate = false;

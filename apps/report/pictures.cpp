@@ -102,11 +102,12 @@ std::string make_gallery(const Workplace& workplace)
 {
     return take_all(
         workplace,
-        {{"teapot_drop",
+        {{"melt_teapot",
           {},
-          {{0, "teapot_drop_00.png", "a teapot of particles above the floor"},
-           {20, "teapot_drop_20.png", "it hits the floor"},
-           {31, "teapot_drop_31.png", "the splash climbs the walls"}}},
+          {{0, "melt_teapot_00.png", "a teapot of ice in the sun"},
+           {22, "melt_teapot_22.png", "what is thin melts first"},
+           {89, "melt_teapot_89.png", "and most of it is water"}}},
+         {"teapot_drop", {}, {{31, "teapot_drop_31.png", "a teapot of syrup has hit the floor"}}},
          {"dam_break", {"render.color=speed"}, {{27, "dam_break_speed.png", "a dam break colored by speed"}}},
          {"dissolve", {}, {{32, "dissolve_32.png", "a rabbit dissolves into a thick fluid"}}},
          {"vanish", {}, {{38, "vanish_38.png", "and crumbles into dust that the wind carries off"}}}});

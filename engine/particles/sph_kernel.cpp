@@ -275,6 +275,16 @@ double exposed_area_scale(std::uint32_t dimensions)
     return 1.0 / exposed;
 }
 
+double solid_filling_scale(std::uint32_t dimensions)
+{
+    const auto ratio = static_cast<double>(shared::EXPOSURE_SUPPORT);
+    double sum = density_shape(shared::KERNEL_WENDLAND, 0.0);
+    for_each_lattice_site(ratio, dimensions, [&](const glm::dvec3& /*site*/, double r) {
+        sum += r > 0.0 ? density_shape(shared::KERNEL_WENDLAND, r / ratio) : 0.0;
+    });
+    return 1.0 / sum;
+}
+
 double wall_viscosity_integral(std::uint32_t kernel, double distance, double support_radius, std::uint32_t dimensions)
 {
     if (distance < 0.0) {

@@ -106,6 +106,9 @@ struct LayerSteepness {
 /// axes add up to that face.
 [[nodiscard]] double exposed_area_scale(std::uint32_t dimensions = 3);
 
+/// shared::ExposurePush::filling_scale: 1 over the sum of the kernel's shape on a lattice (shared/exposure.h).
+[[nodiscard]] double solid_filling_scale(std::uint32_t dimensions);
+
 inline constexpr double MIN_SUPPORT_RATIO = 1.2; ///< below, a lattice has hardly any neighbors left
 inline constexpr double MAX_SUPPORT_RATIO = 8.0; ///< above, a particle has more than 2100 neighbors
 

@@ -1,5 +1,7 @@
 #include "reference/exposure.h"
 
+#include <algorithm>
+
 #include "core/parallel_for.h"
 #include "particles/sph_kernel.h"
 #include "reference/cells.h"
@@ -32,22 +34,30 @@ std::vector<glm::dvec4> exposure_of_all(const Settings& settings, const State& s
     shared::SphParams params = settings.params;
     params.support_radius = shared::EXPOSURE_SUPPORT * params.spacing;
     const double support_radius = static_cast<double>(params.support_radius);
+    const double filling_scale = solid_filling_scale(settings.dimensions);
     const double scale = exposed_area_scale(settings.dimensions) * cell_face(params);
     const Neighbors neighbors = find_neighbors(params, state.position);
     std::vector<glm::dvec4> exposed(state.size(), glm::dvec4(0.0));
     parallel_for(state.size(), [&](std::size_t i) {
         glm::dvec3 sum(0.0);
+        double filling = state.weight[i] * density_shape(shared::KERNEL_WENDLAND, 0.0);
         for (const Neighbor& neighbor : neighbors.of(i)) {
             const glm::dvec3 offset =
                 state.position[i] - reflect_position(params, neighbor.reflection, state.position[neighbor.index]);
             const double r = glm::length(offset);
+            if (is_solid(state, i) && counts(state, neighbor.index)) {
+                filling += state.weight[neighbor.index] * density_shape(shared::KERNEL_WENDLAND, r / support_radius);
+            }
             if (is_solid(state, i) && counts(state, neighbor.index) && r > 0.0) {
                 sum += state.weight[neighbor.index] * gradient_shape(shared::KERNEL_WENDLAND, r / support_radius) *
                        offset / r;
             }
         }
-        if (const double size = glm::length(sum); size > 0.0) {
-            exposed[i] = glm::dvec4(sum / size, scale * size);
+        if (is_solid(state, i)) {
+            const double size = glm::length(sum);
+            const double lacking = 1.0 - filling_scale * filling / static_cast<double>(shared::THIN_FILLING);
+            const double thin = 2.0 * settings.dimensions * std::max(lacking, 0.0) * cell_face(params);
+            exposed[i] = glm::dvec4(size > 0.0 ? sum / size : glm::dvec3(0.0), std::max(scale * size, thin));
         }
     });
     return exposed;

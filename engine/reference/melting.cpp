@@ -5,6 +5,7 @@
 
 #include "particles/sph_kernel.h"
 #include "reference/heat.h"
+#include "shared/exposure.h"
 
 namespace meltpoint::reference {
 

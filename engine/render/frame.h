@@ -24,6 +24,11 @@ struct ParticleView {
     const gpu::Buffer& pressure;   ///< float, Pa
     const gpu::Buffer& attributes; ///< uint, shared/particle_state.h
     std::uint32_t count = 0;
+
+    /// When what was solid was freed: float by id, s, and the particles' ids, uint. Null where nobody knows.
+    const gpu::Buffer* freed_at = nullptr;
+    const gpu::Buffer* id = nullptr;
+    float time = 0.0f; ///< s, of the frame
 };
 
 /// Surface splats in device buffers, read only: flat discs, seen from both sides.
@@ -59,6 +64,7 @@ struct FrameSettings {
     std::array<float, shared::MAX_MATERIALS> rest_density{};
     std::array<glm::vec3, shared::MAX_MATERIALS> material_color{};
     std::array<glm::vec3, shared::MAX_MATERIALS> solid_color{}; ///< of solid particles of a material
+    float blend_time = 0.5f; ///< s, in which what was solid takes on the color of its fluid
 };
 
 /// What a frame shows.

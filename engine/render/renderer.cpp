@@ -92,7 +92,10 @@ void Renderer::draw(gpu::Commands& commands, const Frame& frame)
     const std::uint32_t discs = frame.discs ? frame.discs->count : 0;
     check_count(spheres, "particles");
     check_count(discs, "discs");
-    const shared::RenderParams params = frame_params(frame.settings, width_, height_, samples_, shadow_size);
+    shared::RenderParams params = frame_params(frame.settings, width_, height_, samples_, shadow_size);
+    const bool knows_when_freed = frame.particles && frame.particles->freed_at != nullptr;
+    params.time = frame.particles ? frame.particles->time : 0.0f;
+    params.blend_time = knows_when_freed ? frame.settings.blend_time : 0.0f;
     const gpu::Scope scope(commands, "render");
     write_params(commands, params);
     last_camera_ = params.camera;
@@ -141,7 +144,8 @@ void Renderer::draw(gpu::Commands& commands, const Frame& frame)
              frame.particles ? frame.particles->velocity : none, frame.particles ? frame.particles->density : none,
              frame.particles ? frame.particles->pressure : none, frame.particles ? frame.particles->attributes : none,
              frame.discs ? frame.discs->position : none, frame.discs ? frame.discs->normal : none,
-             frame.discs ? frame.discs->color : none}};
+             frame.discs ? frame.discs->color : none, knows_when_freed ? *frame.particles->id : none,
+             knows_when_freed ? *frame.particles->freed_at : none}};
         const gpu::Targets targets{.colors = {{&picture_}}, .depth = std::nullopt};
         gpu::record_draw_pass(commands, targets, std::span(&draw, 1));
     }

@@ -14,6 +14,7 @@
 #include "run/dust_params.h"
 #include "run/emission_settings.h"
 #include "run/heat_settings.h"
+#include "run/hydraulic_settings.h"
 #include "run/plane_scene.h"
 #include "run/scene_warnings.h"
 #include "run/wind_settings.h"
@@ -359,6 +360,7 @@ FluidSettings fluid_settings(const Scene& any_scene, const ParticleSet& particle
     settings.simulation.emission = emission_settings(scene, particles);
     settings.simulation.melting = melting_settings(scene, particles);
     settings.simulation.wind = wind_settings(scene);
+    settings.simulation.hydraulic = hydraulic_settings(scene, particles);
     options.still = std::ranges::any_of(particles.attributes, shared::is_boundary);
     options.colliders = options.capillarity && options.still;
     options.xsph = params.xsph > 0.0f;

@@ -68,10 +68,13 @@ FrameStatistics measure(const ParticleSet& particles, const shared::SphParams& p
         const std::uint32_t attributes = particles.attributes[i];
         const std::uint32_t state = shared::particle_state(attributes);
         count_state(statistics, state);
+        const auto mass = static_cast<double>(particles.mass[i]);
+        if (state != shared::STATE_SOLID) { // the dead, too: what a sink has taken was freed
+            statistics.freed_mass[shared::cause_of(attributes)] += mass;
+        }
         if (state == shared::STATE_DEAD) {
             continue;
         }
-        const auto mass = static_cast<double>(particles.mass[i]);
         const glm::dvec3 x(particles.position[i]);
         const glm::dvec3 v(particles.velocity[i]);
         statistics.mass += mass;
@@ -133,9 +136,10 @@ std::string statistics_row(const FrameStatistics& s)
     row += fmt::format(",{},{},{:.3f},{:.3f},{},{},{}", s.outside, cell_or_empty(s.neighbors_mean), s.simulate_ms,
                        s.draw_ms, cell_or_empty(s.iterations_density), cell_or_empty(s.iterations_divergence),
                        cell_or_empty(s.iterations_viscosity));
-    row += fmt::format(",{},{},{},{},,{},{},{},,{},{}\n", s.deposited, cell_or_empty(s.enthalpy), cell(s.solid_volume),
-                       cell_or_empty(s.exposed_area), s.emitted, s.sunk, cell_or_empty(s.rate_melt),
-                       cell_or_empty(s.rate_wind), cell_or_empty(s.rate_dissolve));
+    row += fmt::format(",{},{},{},{},,{},{},{},{},{},{}\n", s.deposited ? fmt::format("{}", *s.deposited) : "",
+                       cell_or_empty(s.enthalpy), cell(s.solid_volume), cell_or_empty(s.exposed_area), s.emitted,
+                       s.sunk, cell_or_empty(s.rate_melt), cell_or_empty(s.rate_hydraulic), cell_or_empty(s.rate_wind),
+                       cell_or_empty(s.rate_dissolve));
     return row;
 }
 

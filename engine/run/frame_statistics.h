@@ -52,10 +52,11 @@ struct FrameStatistics {
     std::uint64_t sunk = 0;                      ///< likewise, dust at the end of its life among them
     std::optional<double> enthalpy;              ///< J, of all fluid and solid; empty where heat is not followed
     std::optional<double> exposed_area;          ///< m^2, of solids, likewise
-    std::uint64_t deposited = 0;                 ///< particles of sand that have come to rest, since the start
-    std::optional<double> rate_wind; ///< kg/s that the wind has taken, mean since the frame before; empty in the first
-    std::optional<double> rate_melt; ///< kg/s that melted, net, mean since the frame before; empty in the first
-    std::optional<double> rate_dissolve; ///< likewise of what fronts have freed
+    std::optional<double> rate_melt;        ///< kg/s that melted, net, mean since the frame before; empty in the first
+    std::optional<double> rate_dissolve;    ///< likewise of what fronts have freed
+    std::optional<double> rate_hydraulic;   ///< likewise of what flow has carried off, less what has settled
+    std::optional<double> rate_wind;        ///< likewise of what the wind has taken
+    std::optional<std::uint64_t> deposited; ///< particles of sediment and sand that became solid again, since the start
 };
 
 /// Everything but frame, time, steps, dt, neighbors and wall times.

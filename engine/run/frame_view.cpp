@@ -79,6 +79,7 @@ render::FrameSettings frame_settings(const Scene& any_scene, const shared::SphPa
     settings.box = scene.domain.walls || glm::any(scene.domain.periodic);
     settings.color_mode = color_mode(scene.render.color);
     settings.splat_radius = scene.render.splat_radius * scene.particles.spacing;
+    settings.blend_time = scene.render.blend_time;
 
     const SceneMaterials materials = scene_materials(scene);
     float heaviest = 0.0f;

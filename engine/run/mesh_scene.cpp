@@ -1,6 +1,7 @@
 #include "run/mesh_scene.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <filesystem>
 #include <optional>
@@ -17,6 +18,7 @@
 #include "geometry/measure_volume.h"
 #include "run/load_surface.h"
 #include "scene/key_table.h"
+#include "scene/liquids.h"
 #include "scene/scene_file.h"
 
 namespace meltpoint {
@@ -24,6 +26,7 @@ namespace meltpoint {
 namespace {
 
 constexpr double wanted_particles = 16'000.0;
+constexpr double wanted_solid_particles = 10'000.0; // heat is work, too
 
 // The size at which the viscosity and the frame rate below look right: that of the default scene's teapot.
 constexpr double model_size = 0.9;        // m
@@ -61,55 +64,148 @@ Model model_of(const PointCloud& cloud, const std::string& name)
     return {.what = "scan", .extent = box.size(), .volume = CloudSolid(make_cloud_surface(cloud, name)).volume()};
 }
 
-} // namespace
-
-Scene mesh_scene(const std::string& name)
+float largest_of(const Model& model)
 {
-    const auto [what, extent, volume] =
-        std::visit([&](const auto& each) { return model_of(each, name); }, load_surface(name));
-    if (!(volume > 0.0)) {
-        throw input_error("{}: the {} encloses no volume that could be filled{}", name, what,
-                          what == "scan" ? ": it is flat, or its normals face inward" : "");
-    }
-    const float largest = std::max({extent.x, extent.y, extent.z});
-    if (largest < smallest_mesh || largest > largest_mesh) {
-        throw input_error("{}: the {} is {:.4g} m large, but only what is {} m to {} m large can be dropped (a scene "
-                          "file can scale it: fluid.size)",
-                          name, what, largest, smallest_mesh, largest_mesh);
-    }
-    const double similarity = static_cast<double>(largest) / model_size;
+    return std::max({model.extent.x, model.extent.y, model.extent.z});
+}
 
-    Scene scene;
-    scene.name = name.starts_with("builtin:") ? name.substr(8) : std::filesystem::path(name).stem().string();
-    scene.description = fmt::format("A {} filled with fluid, dropped into a box.", what);
-    scene.particles.spacing = static_cast<float>(std::cbrt(volume / wanted_particles));
+/// A box with its floor at y = 0, with so much room beside the model and above it.
+void set_box(Scene& scene, const Model& model, float beside, float above)
+{
+    const glm::vec2 side = 0.5f * glm::vec2(model.extent.x, model.extent.z) + beside;
+    scene.domain.min = glm::vec3(-side.x, 0.0f, -side.y);
+    scene.domain.max = glm::vec3(side.x, model.extent.y + above, side.y);
+}
+
+/// Fluid that drops into a box.
+void set_drop(Scene& scene, const MeshShape& mesh, const Model& model, double similarity)
+{
+    const float largest = largest_of(model);
+    scene.description = fmt::format("A {} filled with fluid, dropped into a box.", model.what);
+    scene.particles.spacing = static_cast<float>(std::cbrt(model.volume / wanted_particles));
     scene.physics.viscosity =
         static_cast<float>(std::min(model_viscosity * std::pow(similarity, 1.5), largest_viscosity));
     scene.time.frame_rate = static_cast<float>(model_frame_rate / std::sqrt(similarity));
-
-    const glm::vec2 side = 0.5f * glm::vec2(extent.x, extent.z) + 0.2f * largest;
-    scene.domain.min = glm::vec3(-side.x, 0.0f, -side.y);
-    scene.domain.max = glm::vec3(side.x, 1.5f * extent.y + 0.6f * largest, side.y);
+    set_box(scene, model, 0.2f * largest, 0.5f * model.extent.y + 0.6f * largest);
     scene.domain.wall_viscosity = 0.5f * scene.physics.viscosity;
+    scene.fluids.push_back({.shape = mesh});
+    std::get<MeshShape>(scene.fluids[0].shape).position.y = 0.5f * model.extent.y + 0.4f * largest;
+}
+
+/// Ice that melts in the sun, whose heat works so fast that frame after frame as much of any size is gone.
+void set_melt(Scene& scene, const MeshShape& mesh, const Model& model, double similarity)
+{
+    const float largest = largest_of(model);
+    scene.description = fmt::format("A {} of ice melts in the sun.", model.what);
+    scene.solver = Solver::Dfsph;
+    scene.particles.spacing = static_cast<float>(std::cbrt(model.volume / wanted_solid_particles));
+    scene.time.frame_rate = static_cast<float>(30.0 / std::sqrt(similarity));
+    scene.heat.time_scale = static_cast<float>(20'000.0 * std::sqrt(similarity));
+    scene.heat.air_temperature = 25.0f;
+    set_box(scene, model, 0.4f * largest, 0.3f * largest);
+    SolidBody ice;
+    set_liquid(ice, *find_liquid("water"));
+    ice.viscosity = static_cast<float>(std::min(0.04 * std::pow(similarity, 1.5), largest_viscosity));
+    ice.friction = 2.0f * *ice.viscosity;
+    scene.domain.wall_viscosity = *ice.viscosity;
+    ice.shape = mesh;
+    std::get<MeshShape>(ice.shape).position.y = 0.5f * model.extent.y + 0.25f * scene.particles.spacing;
+    ice.melts = true;
+    ice.solid_color = {0.72f, 0.83f, 0.90f};
+    scene.solids.push_back(ice);
+}
+
+/// A solid that crumbles into dust, from its right side on.
+void set_vanish(Scene& scene, const MeshShape& mesh, const Model& model, double similarity)
+{
+    const float largest = largest_of(model);
+    const auto size = static_cast<float>(similarity);
+    const float speed = std::sqrt(size); // Froude's similarity: times are as long as this, too
+    scene.description = fmt::format("A {} crumbles into dust that the wind carries off.", model.what);
+    scene.solver = Solver::Dfsph;
+    scene.particles.spacing = static_cast<float>(std::cbrt(model.volume / wanted_solid_particles));
+    scene.time.frame_rate = 24.0f / speed;
+    set_box(scene, model, 0.8f * largest, 0.8f * largest);
+    scene.dust = {.wind = speed * glm::vec3(0.55f, 0.3f, 0.0f),
+                  .turbulence = 0.5f * speed,
+                  .eddy_size = 0.7f * size,
+                  .response_time = 0.25f * speed,
+                  .life = 2.2f * speed};
+    SolidBody solid;
+    solid.shape = mesh;
+    std::get<MeshShape>(solid.shape).position.y = 0.5f * model.extent.y + 0.25f * scene.particles.spacing;
+    solid.becomes = SolidBecomes::Dust;
+    solid.solid_color = {0.55f, 0.42f, 0.34f};
+    solid.dissolve = {.speed = 0.4f * speed,
+                      .start = 0.3f * speed,
+                      .direction = glm::vec3(-1.0f, -0.25f, 0.0f),
+                      .roughness = 0.12f * size,
+                      .grain = 0.2f * size};
+    scene.solids.push_back(solid);
+}
+
+} // namespace
+
+std::span<const LookName> look_names()
+{
+    static constexpr std::array<LookName, 3> names{
+        {{"drop", Look::Drop}, {"melt", Look::Melt}, {"vanish", Look::Vanish}}};
+    return names;
+}
+
+Scene mesh_scene(const std::string& name, Look look)
+{
+    const Model model = std::visit([&](const auto& each) { return model_of(each, name); }, load_surface(name));
+    if (!(model.volume > 0.0)) {
+        throw input_error("{}: the {} encloses no volume that could be filled{}", name, model.what,
+                          model.what == "scan" ? ": it is flat, or its normals face inward" : "");
+    }
+    const float largest = largest_of(model);
+    if (largest < smallest_mesh || largest > largest_mesh) {
+        throw input_error("{}: the {} is {:.4g} m large, but only what is {} m to {} m large can be dropped (a scene "
+                          "file can scale it: fluid.size)",
+                          name, model.what, largest, smallest_mesh, largest_mesh);
+    }
+    const double similarity = static_cast<double>(largest) / model_size;
+    Scene scene;
+    scene.name = name.starts_with("builtin:") ? name.substr(8) : std::filesystem::path(name).stem().string();
     scene.render.splat_radius = 0.75f;
-    MeshShape shape{.mesh = name};
-    shape.position = glm::vec3(0.0f, 0.5f * extent.y + 0.4f * largest, 0.0f);
-    scene.fluids.push_back({.shape = shape});
+    const MeshShape mesh{.mesh = name};
+    switch (look) {
+    case Look::Drop:
+        set_drop(scene, mesh, model, similarity);
+        break;
+    case Look::Melt:
+        set_melt(scene, mesh, model, similarity);
+        break;
+    case Look::Vanish:
+        set_vanish(scene, mesh, model, similarity);
+        break;
+    }
     return scene;
 }
 
-Scene find_scene(const std::string& name, std::span<const std::string> overrides)
+Scene find_scene(const std::string& name, std::span<const std::string> overrides, std::optional<Look> look)
 {
+    const auto refuse_look = [&] {
+        if (look) {
+            throw input_error("--look: {} is a scene, which has a look of its own: looks are for meshes and scans",
+                              name);
+        }
+    };
     const std::vector<std::string> builtin = builtin_scene_names();
     if (std::find(builtin.begin(), builtin.end(), name) != builtin.end()) {
+        refuse_look();
         return builtin_scene(name, overrides); // a file of that name is ./NAME
     }
     std::error_code error; // a name that cannot be a path, because it is too long, is not the name of a file
     const std::filesystem::file_status status = std::filesystem::status(name, error);
     if (name.starts_with("builtin:") || (std::filesystem::is_regular_file(status) && !is_scene_file(name))) {
-        return parse_scene(write_scene(mesh_scene(name)), name, std::filesystem::current_path(), overrides);
+        return parse_scene(write_scene(mesh_scene(name, look.value_or(Look::Drop))), name,
+                           std::filesystem::current_path(), overrides);
     }
     if (std::filesystem::exists(status) || is_scene_file(name)) {
+        refuse_look();
         return read_scene_file(name, overrides);
     }
     const std::span<const std::string_view> meshes = builtin_mesh_names();

@@ -198,12 +198,12 @@ public:
     {
     }
 
-    /// Particles may be null: there are none.
-    Image paint(const ParticleBuffers* particles)
+    /// The simulation may be null: there are no particles.
+    Image paint(const sim::Simulation* simulation)
     {
         commands_.begin();
         renderer_.draw(commands_, {.settings = settings_,
-                                   .particles = particles != nullptr ? std::optional(view(*particles)) : std::nullopt,
+                                   .particles = simulation != nullptr ? std::optional(view(*simulation)) : std::nullopt,
                                    .discs = discs_ ? std::optional(discs_->view()) : std::nullopt});
         commands_.submit();
         commands_.wait();
@@ -215,10 +215,18 @@ public:
     }
 
 private:
-    static render::ParticleView view(const ParticleBuffers& particles)
+    static render::ParticleView view(const sim::Simulation& simulation)
     {
-        return {particles.position, particles.velocity,   particles.density,
-                particles.pressure, particles.attributes, particles.count};
+        const ParticleBuffers& particles = simulation.particles();
+        return {.position = particles.position,
+                .velocity = particles.velocity,
+                .density = particles.density,
+                .pressure = particles.pressure,
+                .attributes = particles.attributes,
+                .count = particles.count,
+                .freed_at = simulation.release_time(),
+                .id = &particles.id,
+                .time = static_cast<float>(simulation.time())};
     }
 
     render::Renderer renderer_;
@@ -332,23 +340,24 @@ public:
             const shared::Ledger ledger = simulation->ledger();
             statistics.emitted = ledger.emitted;
             statistics.sunk = ledger.sunk;
-            const sim::Simulation::SandStatistics& sand = simulation->sand_statistics();
-            statistics.deposited = sand.deposited;
             if (simulation->wind() != nullptr && picked_up_ && statistics.time > time_) {
-                statistics.rate_wind = (sand.picked_up - *picked_up_) / (statistics.time - time_);
+                statistics.rate_wind = (simulation->picked_up() - *picked_up_) / (statistics.time - time_);
             }
-            picked_up_ = sand.picked_up;
+            picked_up_ = simulation->picked_up();
+            statistics.deposited = simulation->deposited();
             if (const auto heat = simulation->heat_statistics(particles)) {
                 statistics.enthalpy = heat->enthalpy;
                 statistics.exposed_area = heat->exposed_area;
             }
         }
-        if (freed_mass_ && statistics.time > time_) {
+        const bool erodes = simulation && simulation->release_time() != nullptr;
+        if (erodes && freed_mass_ && statistics.time > time_) {
             const auto rate = [&](std::uint32_t cause) {
                 return (statistics.freed_mass[cause] - (*freed_mass_)[cause]) / (statistics.time - time_);
             };
             statistics.rate_melt = rate(shared::CAUSE_MELT);
             statistics.rate_dissolve = rate(shared::CAUSE_FRONT);
+            statistics.rate_hydraulic = rate(shared::CAUSE_HYDRAULIC);
         }
         freed_mass_ = statistics.freed_mass;
         time_ = statistics.time;
@@ -447,7 +456,7 @@ RunSummary run_scene(const gpu::Context& context, const Scene& scene, const RunO
         const double simulate_ms = milliseconds_since(clock);
 
         clock = Clock::now();
-        const Image image = painter.paint(simulation ? &simulation->particles() : nullptr);
+        const Image image = painter.paint(simulation ? &*simulation : nullptr);
         const double draw_ms = milliseconds_since(clock);
         write_png(frame_path(options, frame), image);
         if (video) {

@@ -21,7 +21,7 @@ std::optional<sim::WindSettings> wind_settings(const Scene& scene)
     for (std::size_t i = 0; i < materials.size(); ++i) {
         const SandProperties& sand = materials[i].sand;
         settings.sand[i] = {.erodes = materials[i].wind_erodes,
-                            .grain_size = static_cast<double>(sand.grain_size),
+                            .grain_size = static_cast<double>(materials[i].sand_grain),
                             .grain_density = static_cast<double>(sand.grain_density),
                             .cohesion = static_cast<double>(sand.cohesion),
                             .repose_angle = static_cast<double>(sand.repose_angle)};

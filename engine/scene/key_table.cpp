@@ -318,6 +318,12 @@ std::vector<SceneKey> make_scene_keys()
         k("wind.hop_length", FIELD(wind.hop_length), "m", Range{1e-4, 1e3}, "how far a grain hops over flat ground, on average: at least 4 particle spacings"),
         k("wind.time_scale", FIELD(wind.time_scale), "", Range{1e-6, 1e9}, "seconds of erosion in one of motion: a dune half a meter high moves by some centimeters an hour, so pictures take about 1000"),
 
+        k("hydraulic.consistency", FIELD(hydraulic.consistency), "Pa s^n", Range{0, 1e6}, "of the flow that erodes: its shear stress is consistency (shear rate)^exponent, the shear rate the speed along the surface over a particle spacing"),
+        k("hydraulic.exponent", FIELD(hydraulic.exponent), "", Range{0.01, 4}, "n of that power law: 1 is a Newtonian fluid, below it one that shear thins"),
+        k("hydraulic.time_scale", FIELD(hydraulic.time_scale), "", Range{1e-6, 1e9}, "seconds of erosion in one of motion"),
+        k("hydraulic.deposition_speed", FIELD(hydraulic.deposition_speed), "m/s", Range{0, 1e3}, "slower sediment that lies on a solid or the floor is at rest; 0: none ever is"),
+        k("hydraulic.deposition_time", FIELD(hydraulic.deposition_time), "s", Range{1e-4, 1e4}, "of rest, after which it is solid again"),
+
         k("time.dt", FIELD(time.dt), "s", Range{1e-9, 1}, "step; auto: as long as stability allows, chosen anew for every step, the last of a frame ending at its time"),
         k("time.frame_rate", FIELD(time.frame_rate), "1/s", Range{1e-2, 1e6}, "frames in a second of simulated time"),
         k("time.frames", FIELD(time.frames), "", Range{1, 1e6}, "number of frames, frame 0 (the initial state) included"),
@@ -338,6 +344,7 @@ std::vector<SceneKey> make_scene_keys()
         k("render.color_range", FIELD(render.color_range), "kg/m^3, m/s or Pa", Range{-1e12, 1e12}, "[lowest, highest] of the color scale; auto: fixed, from the scene"),
         flag<Scene>("render.floor", FIELD(render.floor), "a ground plane at the domain's lowest face; none in two dimensions"),
         k("render.splat_radius", FIELD(render.splat_radius), "spacings", Range{0.1, 5}, "of a fluid particle's sphere"),
+        k("render.blend_time", FIELD(render.blend_time), "s", Range{0, 1e6}, "in which what was solid takes on the color of its fluid"),
         k("render.background", FIELD(render.background), "linear RGB", UNIT, "color behind everything"),
     };
 }
@@ -452,10 +459,18 @@ std::vector<SolidKey> make_solid_keys()
         flag<SolidBody>("melts", FIELD(melts), "it turns into fluid where it has taken in its latent heat, from the sun, the air ([heat]) or what touches it"),
         k("absorptivity", FIELD(absorptivity), "", UNIT, "part of the sun's power that its surface takes in"),
         flag<SolidBody>("wind_erodes", FIELD(wind_erodes), "it is sand: the wind of [wind] takes it, it comes down again, and slides where it lies too steep"),
-        k("grain_size", FIELD(sand.grain_size), "m", Range{1e-5, 0.1}, "of the sand, finer than its particles"),
         k("grain_density", FIELD(sand.grain_density), "kg/m^3", Range{1, 1e5}, "of the sand's mineral"),
         k("cohesion", FIELD(sand.cohesion), "N/m", Range{0, 1}, "between grains of sand: 1.65e-4 to 5e-4 (Shao & Lu 2000)"),
         k("repose_angle", FIELD(sand.repose_angle), "degrees", Range{1, 80}, "of the slope that sand stays on; it begins to slide where it lies a degree steeper"),
+        flag<SolidBody>("erodes", FIELD(erosion.erodes), "flow along it carries it off: it becomes sediment, a fluid of its own density and viscosity ([hydraulic])"),
+        k("erosion_threshold", FIELD(erosion.threshold), "Pa", Range{0, 1e9}, "shear stress of the flow up to which it holds, where it has no grain_size"),
+        k("grain_size", FIELD(erosion.grain_size), "m", Range{1e-6, 10}, "of loose sand or gravel, which gives the threshold after Shields (Soulsby & Whitehouse 1997) in the scene's first fluid, auto: erosion_threshold; and what the wind has to lift, auto: 0.00025"),
+        k("erosion_rate", FIELD(erosion.rate), "kg/(m^2 s Pa^a)", Range{0, 1e9}, "lost where the stress is 1 Pa above the threshold"),
+        k("erosion_exponent", FIELD(erosion.exponent), "", Range{0.1, 4}, "a of that law: the loss is erosion_rate (stress - threshold)^a"),
+        flag<SolidBody>("deposits", FIELD(erosion.deposits), "its sediment becomes solid again where it comes to rest"),
+        k("strength_contrast", FIELD(erosion.strength_contrast), "", Range{1, 1000}, "noise makes its strongest parts so many times as strong as usual, and divides by it the strength of the weakest; strength multiplies the threshold and divides the rate; 1: all are alike"),
+        k("strength_grain", FIELD(erosion.strength_grain), "m", Range{1e-5, 1e4}, "size of that noise's coarsest lumps or layers"),
+        k("strength_layers", FIELD(erosion.strength_layers), "", PLACE, "direction across layers (strata), of any length but 0; auto: lumps"),
         k("color", FIELD(solid_color), "linear RGB", UNIT, "of the solid, in render.color = \"material\"; gray in the other modes"),
         k("fluid_color", FIELD(color), "linear RGB", UNIT, "of the fluid"),
     }), thermal_keys<SolidBody>(ITSELF));

@@ -146,9 +146,11 @@ struct DissolveFront {
     float grain = 0.1f;                 ///< m, size of the coarsest unevenness
 };
 
-/// What a solid of sand consists of.
+/// m, of a solid of sand that does not say how large its grains are.
+constexpr float usual_sand_grain = 250e-6f;
+
+/// What a solid of sand consists of, apart from the size of its grains.
 struct SandProperties {
-    float grain_size = 250e-6f;    ///< m
     float grain_density = 2650.0f; ///< kg/m^3, of the mineral
     float cohesion = 3e-4f;        ///< N/m, gamma of Shao & Lu 2000
     float repose_angle = 34.0f;    ///< degrees
@@ -157,6 +159,21 @@ struct SandProperties {
 };
 
 enum class SolidBecomes { Fluid, Dust };
+
+/// How flow carries a solid off (shared/hydraulic.h), and where the solid is stronger or weaker.
+struct Erodibility {
+    bool erodes = false;
+    float threshold = 1.0f;          ///< tau_c, Pa, where there is no grain size
+    std::optional<float> grain_size; ///< m: in flow the threshold is that of Shields; of sand
+    float rate = 10.0f;              ///< K_eps, kg/(m^2 s Pa^exponent)
+    float exponent = 1.0f;           ///< a
+    bool deposits = true;            ///< its sediment becomes solid again
+    float strength_contrast = 1.0f; ///< the strongest is so many times as strong as usual, and the weakest a part of it
+    float strength_grain = 0.1f;    ///< m, size of the coarsest lumps, or layers
+    std::optional<glm::vec3> strength_layers; ///< across layers, of any length but 0; auto: lumps
+
+    bool operator==(const Erodibility&) const = default;
+};
 
 /// A solid that stands still and may turn into fluid, or crumble into dust. What FluidBody says is of that fluid; its
 /// velocities are not used.
@@ -170,6 +187,7 @@ struct SolidBody : FluidBody {
     float absorptivity = 0.7f; ///< part of the sun's power that it takes in
     bool wind_erodes = false;  ///< sand: the wind takes it, and it slides where it is too steep
     SandProperties sand;
+    Erodibility erosion;
 };
 
 /// A round nozzle; it points along the emitter's velocity.
@@ -230,6 +248,15 @@ struct WindSettings {
     float time_scale = 1.0f;               ///< seconds of erosion in one of motion
 };
 
+/// The flow that erodes, and how its sediment settles (shared/hydraulic.h).
+struct HydraulicSettings {
+    float consistency = 1.0f;       ///< K, Pa s^exponent
+    float exponent = 0.5f;          ///< n
+    float time_scale = 1.0f;        ///< seconds of erosion in one of motion
+    float deposition_speed = 0.05f; ///< m/s
+    float deposition_time = 0.2f;   ///< s
+};
+
 /// The air that dust drifts with, and how it does.
 struct DustSettings {
     glm::vec3 wind{0.4f, 0.25f, 0.0f}; ///< m/s
@@ -285,6 +312,7 @@ struct RenderSettings {
     std::optional<glm::vec2> color_range; ///< in the mode's unit; auto: a fixed range derived from the scene
     bool floor = true;                    ///< a ground plane at the domain's lowest face
     float splat_radius = 0.6f;            ///< of a fluid sphere, in particle spacings
+    float blend_time = 0.4f;              ///< s, in which what was solid takes on the color of its fluid
     glm::vec3 background{0.93f, 0.95f, 0.97f};
 };
 
@@ -303,6 +331,7 @@ struct Scene {
     DustSettings dust;
     HeatSettings heat;
     WindSettings wind;
+    HydraulicSettings hydraulic;
     TimeSettings time;
     std::vector<FluidBody> fluids;
     std::vector<SolidBody> solids;
@@ -331,6 +360,21 @@ struct Scene {
 [[nodiscard]] inline bool has_sand(const Scene& scene)
 {
     return std::ranges::any_of(scene.solids, &SolidBody::wind_erodes);
+}
+
+/// Whether flow erodes anything.
+[[nodiscard]] inline bool has_hydraulic(const Scene& scene)
+{
+    return std::ranges::any_of(scene.solids, [](const SolidBody& solid) { return solid.erosion.erodes; });
+}
+
+/// The fluid that grains lie in: the scene's first, or the first that emitters bring. Null where there is none.
+[[nodiscard]] inline const FluidBody* eroding_fluid(const Scene& scene)
+{
+    if (!scene.fluids.empty()) {
+        return &scene.fluids.front();
+    }
+    return scene.emitters.empty() ? nullptr : &scene.emitters.front().fluid;
 }
 
 /// All bodies that are fluid or may turn into it: the fluids, then the solids, then what emitters bring.

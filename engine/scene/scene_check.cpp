@@ -42,6 +42,7 @@ public:
         check_flow();
         check_heat();
         check_wind();
+        check_hydraulic();
         check_plates("collider", scene_.colliders);
         check_plates("surface", scene_.surfaces);
         check_materials();
@@ -262,6 +263,31 @@ private:
         for (std::size_t i = 0; i < scene_.solids.size(); ++i) {
             if (scene_.solids[i].wind_erodes && scene_.solids[i].melts) {
                 fail(fmt::format("solid.{}.melts", i), "is true, but it is sand (wind_erodes), which does not melt");
+            }
+        }
+    }
+
+    void check_hydraulic() const
+    {
+        const FluidBody* fluid = eroding_fluid(scene_);
+        for (std::size_t i = 0; i < scene_.solids.size(); ++i) {
+            const SolidBody& solid = scene_.solids[i];
+            const std::string prefix = fmt::format("solid.{}.", i);
+            if (solid.erosion.strength_layers && *solid.erosion.strength_layers == glm::vec3(0.0f)) {
+                fail(prefix + "strength_layers", "is [0, 0, 0], but must have a length");
+            }
+            if (!solid.erosion.erodes) {
+                continue;
+            }
+            if (solid.becomes == SolidBecomes::Dust) {
+                fail(prefix + "erodes", "is true, but what flow carries off is fluid, not \"dust\"");
+            }
+            if (solid.erosion.grain_size && (fluid == nullptr || fluid->rest_density >= solid.rest_density)) {
+                fail(prefix + "grain_size",
+                     "is {} m, but grains lie in a fluid that is lighter than {}rest_density = {} kg/m^3: {}",
+                     *solid.erosion.grain_size, prefix, solid.rest_density,
+                     fluid == nullptr ? "there is no [[fluid]] or [[emitter]]"
+                                      : fmt::format("the first here has {} kg/m^3", fluid->rest_density));
             }
         }
     }

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "gpu/transfer.h"
 #include "particles/sph_kernel.h"
 #include "shared/exposure.h"
 #include "spirv/sim/exposure.comp.h"
@@ -15,9 +16,12 @@ constexpr std::uint32_t particles_a_dispatch = 1u << 18; // a third of a second 
 } // namespace
 
 Exposure::Exposure(const gpu::Context& context, const FluidOptions& options, std::uint32_t pool)
-    : kernel_(context, "exposure", sim_exposure_comp, fluid_constants(context.info(), options)),
+    : context_(&context), pool_(pool),
+      kernel_(context, "exposure", sim_exposure_comp, fluid_constants(context.info(), options)),
       exposure_(gpu::make_buffer<glm::vec4>(context, pool, "exposure")),
-      area_scale_(static_cast<float>(exposed_area_scale(options.dimensions)))
+      scales_{.area_scale = static_cast<float>(exposed_area_scale(options.dimensions)),
+              .filling_scale = static_cast<float>(solid_filling_scale(options.dimensions)),
+              .faces = static_cast<float>(2 * options.dimensions)}
 {
 }
 
@@ -35,10 +39,18 @@ void Exposure::record(gpu::Commands& commands, const gpu::Buffer& params, const 
     const std::uint32_t end = first + std::min(count, still - std::min(first, still));
     for (; first < end; first += particles_a_dispatch) {
         const std::uint32_t portion = std::min(end - first, particles_a_dispatch);
-        commands.dispatch(kernel_, portion, shared::ExposurePush{area_scale_, first, portion},
+        shared::ExposurePush push = scales_;
+        push.first = first;
+        push.count = portion;
+        commands.dispatch(kernel_, portion, push,
                           {read(params), read(grid.cell_start), read(particles.position), read(particles.position),
                            read(particles.id), read(particles.attributes), gpu::write(exposure_)});
     }
+}
+
+std::vector<glm::vec4> Exposure::download() const
+{
+    return gpu::download<glm::vec4>(*context_, exposure_, pool_);
 }
 
 } // namespace meltpoint::sim

@@ -1,9 +1,13 @@
 #pragma once
 
 #include <cstdint>
+#include <vector>
+
+#include <glm/glm.hpp>
 
 #include "gpu/commands.h"
 #include "particle_buffers/particle_buffers.h"
+#include "shared/exposure.h"
 #include "sim/fluid_kernels.h"
 #include "sim/neighbor_grid.h"
 
@@ -27,13 +31,17 @@ public:
     /// By id: vec4, the normal and in w the exposed area in m^2 (in the plane m); zero of those inside. Of a particle
     /// that is no longer solid it is what it was last.
     [[nodiscard]] const gpu::Buffer& exposure() const { return exposure_; }
+    /// The same. Waits.
+    [[nodiscard]] std::vector<glm::vec4> download() const;
 
     [[nodiscard]] std::uint64_t device_bytes() const { return exposure_.size(); }
 
 private:
+    const gpu::Context* context_;
+    std::uint32_t pool_;
     gpu::Kernel kernel_;
     gpu::Buffer exposure_;
-    float area_scale_;
+    shared::ExposurePush scales_; ///< but for the range
 };
 
 } // namespace meltpoint::sim

@@ -100,7 +100,7 @@ std::uint32_t Heat::substeps(double seconds) const
     const double steps = std::ceil(seconds / longest_substep_);
     if (!(steps <= max_substeps)) {
         throw input_error("conduction of heat over {:.3g} s takes {:.0f} steps of at most {:.3g} s, more than {}: make "
-                          "time run slower for heat, or the particles coarser",
+                          "time run slower for heat (heat.time_scale), or the particles coarser (particles.spacing)",
                           seconds, steps, longest_substep_, max_substeps);
     }
     return static_cast<std::uint32_t>(steps);

@@ -13,6 +13,7 @@ namespace meltpoint::sim {
 
 using gpu::read;
 using gpu::read_write;
+using gpu::write;
 
 namespace {
 
@@ -47,8 +48,7 @@ double shortest_melting(const shared::SphParams& params, const MeltingSettings& 
 
 Melting::Melting(const gpu::Context& context, const FluidOptions& options, const shared::SphParams& params,
                  const MeltingSettings& settings, const std::vector<std::uint32_t>& attributes)
-    : context_(&context), time_scale_(settings.time_scale), longest_look_(0.025 * shortest_melting(params, settings)),
-      count_(attributes.size()), exposure_(context, options, params.pool_count),
+    : time_scale_(settings.time_scale), longest_look_(0.025 * shortest_melting(params, settings)),
       visibility_(context, {.direction = settings.params.sun_direction}, params),
       heat_(context, options, params, settings.heat, attributes, settings.enthalpy),
       warm_(context, "warm", sim_warm_comp, fluid_constants(context.info(), one_by_one(options))),
@@ -60,16 +60,15 @@ Melting::Melting(const gpu::Context& context, const FluidOptions& options, const
 }
 
 void Melting::record_surface(gpu::Commands& commands, const gpu::Buffer& params, const ParticleBuffers& particles,
-                             const NeighborGrid& grid) const
+                             const Exposure& exposure) const
 {
-    const gpu::Scope scope(commands, "surface");
-    exposure_.record_start(commands);
-    exposure_.record(commands, params, particles, grid);
-    visibility_.record(commands, params, particles, exposure_.exposure());
+    const gpu::Scope scope(commands, "sunlight");
+    visibility_.record(commands, params, particles, exposure.exposure());
 }
 
 void Melting::record_heat(gpu::Commands& commands, const FluidKernels& kernels, const gpu::Buffer& params,
-                          const ParticleBuffers& particles, const NeighborGrid& grid, double seconds) const
+                          const ParticleBuffers& particles, const NeighborGrid& grid, const Exposure& exposure,
+                          double seconds) const
 {
     const double heat_seconds = seconds * time_scale_;
     {
@@ -77,32 +76,29 @@ void Melting::record_heat(gpu::Commands& commands, const FluidKernels& kernels, 
         commands.dispatch(warm_, particles.count, static_cast<float>(heat_seconds),
                           {read(params), read(grid.cell_start), read(heat_.params()), read(params_), read(particles.id),
                            read(particles.attributes), read(particles.position), read(particles.velocity),
-                           read(exposure_.exposure()), read(visibility_.visibility()), read_write(heat_.enthalpy())});
+                           read(exposure.exposure()), read(visibility_.visibility()), read_write(heat_.enthalpy())});
     }
     heat_.record_conduction(commands, kernels, params, particles, grid, heat_seconds);
 }
 
 void Melting::record_changes(gpu::Commands& commands, const gpu::Buffer& params, const ParticleBuffers& particles,
-                             const NeighborGrid& grid, const gpu::Buffer& changes) const
+                             const NeighborGrid& grid, const gpu::Buffer& release_time, const gpu::Buffer& changes,
+                             float time) const
 {
     const gpu::Scope scope(commands, "melt and freeze");
     commands.dispatch(freeze_, particles.moving, gpu::NoPush{},
                       {read(params), read(grid.cell_start), read(params_), read(particles.id), read(heat_.enthalpy()),
                        read(particles.position), read_write(particles.attributes), read_write(particles.velocity),
-                       read_write(changes)});
-    commands.dispatch(melt_, particles.count - particles.moving, gpu::NoPush{},
+                       write(release_time), read_write(changes)});
+    commands.dispatch(melt_, particles.count - particles.moving, time,
                       {read(params), read(heat_.params()), read(params_), read(particles.id), read(heat_.enthalpy()),
-                       read_write(particles.attributes), read_write(particles.velocity), read_write(changes)});
-}
-
-std::vector<glm::vec4> Melting::download_exposure() const
-{
-    return gpu::download<glm::vec4>(*context_, exposure_.exposure(), count_);
+                       read_write(particles.attributes), read_write(particles.velocity), write(release_time),
+                       read_write(changes)});
 }
 
 std::uint64_t Melting::device_bytes() const
 {
-    return exposure_.device_bytes() + visibility_.device_bytes() + heat_.device_bytes() + params_.size();
+    return visibility_.device_bytes() + heat_.device_bytes() + params_.size();
 }
 
 } // namespace meltpoint::sim

@@ -30,35 +30,33 @@ public:
     Melting(const gpu::Context& context, const FluidOptions& options, const shared::SphParams& params,
             const MeltingSettings& settings, const std::vector<std::uint32_t>& attributes);
 
-    /// Where solids are exposed and seen by the sun: to be found out again whenever others are solid.
+    /// Where solids are seen by the sun: to be found out again, after the exposure, whenever others are solid.
     void record_surface(gpu::Commands& commands, const gpu::Buffer& params, const ParticleBuffers& particles,
-                        const NeighborGrid& grid) const;
+                        const Exposure& exposure) const;
 
     /// What happened to heat in the `seconds` of motion since the last look: sun, air, conduction. Throws Input where
     /// that takes too many steps.
     void record_heat(gpu::Commands& commands, const FluidKernels& kernels, const gpu::Buffer& params,
-                     const ParticleBuffers& particles, const NeighborGrid& grid, double seconds) const;
+                     const ParticleBuffers& particles, const NeighborGrid& grid, const Exposure& exposure,
+                     double seconds) const;
 
-    /// Solids melt and fluid freezes, counted in `changes`, shared::PoolChanges: they lie among the others yet.
+    /// Solids melt and fluid freezes at `time` (s), counted in `changes`, shared::PoolChanges: they lie among the
+    /// others yet. When a solid melts is noted in release_time, by id.
     void record_changes(gpu::Commands& commands, const gpu::Buffer& params, const ParticleBuffers& particles,
-                        const NeighborGrid& grid, const gpu::Buffer& changes) const;
+                        const NeighborGrid& grid, const gpu::Buffer& release_time, const gpu::Buffer& changes,
+                        float time) const;
 
     /// s of motion, the longest from one look to the next: in it sun and air melt a fortieth of a particle, for
     /// what a particle gets beyond its latent heat is lost to the next one. Infinite where neither melts anything.
     [[nodiscard]] double longest_look() const { return longest_look_; }
 
     [[nodiscard]] const Heat& heat() const { return heat_; }
-    /// Of all particles, by id: normal, and in w the exposed area in m^2 as it was last found. Waits.
-    [[nodiscard]] std::vector<glm::vec4> download_exposure() const;
 
     [[nodiscard]] std::uint64_t device_bytes() const;
 
 private:
-    const gpu::Context* context_;
     double time_scale_;
     double longest_look_;
-    std::size_t count_;
-    Exposure exposure_;
     Visibility visibility_;
     Heat heat_;
     gpu::Kernel warm_;

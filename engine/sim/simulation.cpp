@@ -123,6 +123,13 @@ Simulation::Simulation(const gpu::Context& context, const ParticleSet& particles
             wind_.emplace(context, options_, params_, *settings.wind);
             wind_->record_start(*commands_);
         }
+        if (settings.hydraulic) {
+            hydraulic_.emplace(context, options_, *settings.hydraulic, params_.pool_count);
+            hydraulic_->record_start(*commands_);
+        }
+        if (settings.melting || settings.hydraulic || settings.wind) {
+            exposure_.emplace(context, options_, params_.pool_count);
+        }
         gone_ = static_cast<std::uint32_t>(std::ranges::count_if(particles.attributes, shared::is_gone));
         if (settings.dust) {
             dust_.emplace(context, *settings.dust);
@@ -132,12 +139,7 @@ Simulation::Simulation(const gpu::Context& context, const ParticleSet& particles
         }
     }
     solver_->record_start(*commands_, fluid());
-    if (melting_) {
-        melting_->record_surface(*commands_, params_buffer_, particles_, grid_);
-    }
-    if (wind_) {
-        wind_->record_surface(*commands_, params_buffer_, particles_, grid_);
-    }
+    record_surface(*commands_);
     commands_->submit();
     commands_->wait();
 }
@@ -166,11 +168,26 @@ std::uint32_t Simulation::steps_until_erosion() const
 std::uint32_t Simulation::look_interval() const
 {
     const std::uint32_t interval = Erosion::interval(params_.pool_count, params_.moving_count);
-    constexpr double infinite = std::numeric_limits<double>::infinity();
-    const double longest =
-        std::min(melting_ ? melting_->longest_look() : infinite, wind_ ? wind_->longest_look() : infinite);
+    double longest = std::numeric_limits<double>::infinity();
+    longest = melting_ ? std::min(longest, melting_->longest_look()) : longest;
+    longest = hydraulic_ ? std::min(longest, hydraulic_->longest_look()) : longest;
+    longest = wind_ ? std::min(longest, wind_->longest_look()) : longest;
     const double longest_dt = static_cast<double>(time_.adaptive() ? params_.longest_dt : params_.dt);
     return static_cast<std::uint32_t>(std::clamp(longest / longest_dt, 1.0, static_cast<double>(interval)));
+}
+
+void Simulation::record_surface(gpu::Commands& commands) const
+{
+    if (exposure_) {
+        exposure_->record_start(commands);
+        exposure_->record(commands, params_buffer_, particles_, grid_);
+    }
+    if (melting_) {
+        melting_->record_surface(commands, params_buffer_, particles_, *exposure_);
+    }
+    if (wind_) {
+        wind_->record_surface(commands, params_buffer_, particles_, *exposure_);
+    }
 }
 
 void Simulation::erode(double time)
@@ -179,20 +196,32 @@ void Simulation::erode(double time)
         return;
     }
     gpu::Commands& commands = *erosion_commands_;
+    const double seconds = time - looked_at_;
+    looked_at_ = time;
     commands.begin();
+    if (hydraulic_) { // how fast it works says when to look again
+        hydraulic_->record_scour(commands, params_buffer_, particles_, grid_, *exposure_, seconds);
+        commands.submit();
+        commands.wait();
+        commands.begin();
+    }
     const std::uint32_t interval = look_interval();
     next_erosion_ = step_ + interval;
     if (melting_) {
-        melting_->record_heat(commands, kernels_, params_buffer_, particles_, grid_, time - looked_at_);
+        melting_->record_heat(commands, kernels_, params_buffer_, particles_, grid_, *exposure_, seconds);
     }
     erosion_->record_look(commands, params_buffer_, particles_, static_cast<float>(time));
     if (melting_) {
-        melting_->record_changes(commands, params_buffer_, particles_, grid_, erosion_->changes());
+        melting_->record_changes(commands, params_buffer_, particles_, grid_, erosion_->release_time(),
+                                 erosion_->changes(), static_cast<float>(time));
+    }
+    if (hydraulic_) {
+        hydraulic_->record_changes(commands, params_buffer_, particles_, grid_, erosion_->release_time(),
+                                   erosion_->changes(), time, seconds);
     }
     if (wind_) {
-        wind_->record_changes(commands, params_buffer_, particles_, grid_, erosion_->changes(), time - looked_at_);
+        wind_->record_changes(commands, params_buffer_, particles_, grid_, *exposure_, erosion_->changes(), seconds);
     }
-    looked_at_ = time;
     if (emission_) {
         emission_->record_calls(commands, params_buffer_, particles_, erosion_->release_time(), erosion_->changes(),
                                 gone_, time, time + longest_time(interval));
@@ -205,7 +234,8 @@ void Simulation::erode(double time)
     if (emission_) {
         emission_->note_called(found);
     }
-    note_sand(found);
+    note_picked_up(found);
+    deposited_ += found.deposited;
     params_.moving_count += found.freed + called - found.died - found.frozen - found.deposited;
     particles_.moving = params_.moving_count;
     gone_ += found.died - called;
@@ -225,22 +255,16 @@ void Simulation::erode(double time)
     if (capillarity_) {
         capillarity_->record_start(commands);
     }
-    if (melting_) {
-        melting_->record_surface(commands, params_buffer_, particles_, grid_);
-    }
-    if (wind_) {
-        wind_->record_surface(commands, params_buffer_, particles_, grid_);
-    }
+    record_surface(commands);
     commands.submit();
     commands.wait();
 }
 
-void Simulation::note_sand(const shared::PoolChanges& found)
+void Simulation::note_picked_up(const shared::PoolChanges& found)
 {
-    sand_.deposited += found.deposited;
     for (std::uint32_t material = 0; material < shared::MAX_MATERIALS; ++material) {
-        sand_.picked_up += found.picked_up[material] * static_cast<double>(params_.rest_density[material]) *
-                           static_cast<double>(params_.lattice_volume);
+        picked_up_ += found.picked_up[material] * static_cast<double>(params_.rest_density[material]) *
+                      static_cast<double>(params_.lattice_volume);
     }
 }
 
@@ -333,6 +357,8 @@ std::uint64_t Simulation::device_bytes() const
     sum += emission_ ? emission_->device_bytes() : 0;
     sum += melting_ ? melting_->device_bytes() : 0;
     sum += wind_ ? wind_->device_bytes() : 0;
+    sum += hydraulic_ ? hydraulic_->device_bytes() : 0;
+    sum += exposure_ ? exposure_->device_bytes() : 0;
     sum += boundary_forces_ != nullptr ? boundary_forces_->reactions().size() : 0;
     for (const gpu::Buffer* buffer : {&particles_.id,
                                       &particles_.attributes,
@@ -377,7 +403,7 @@ std::optional<Simulation::HeatStatistics> Simulation::heat_statistics(const Part
         return std::nullopt;
     }
     const std::vector<double> enthalpy = melting_->heat().download_enthalpy();
-    const std::vector<glm::vec4> exposure = melting_->download_exposure();
+    const std::vector<glm::vec4> exposure = exposure_->download();
     HeatStatistics statistics;
     for (std::size_t i = 0; i < particles.size(); ++i) {
         const std::uint32_t state = shared::particle_state(particles.attributes[i]);
@@ -387,6 +413,11 @@ std::optional<Simulation::HeatStatistics> Simulation::heat_statistics(const Part
         statistics.exposed_area += state == shared::STATE_SOLID ? static_cast<double>(exposure[i].w) : 0.0;
     }
     return statistics;
+}
+
+std::vector<double> Simulation::damage() const
+{
+    return hydraulic_ ? hydraulic_->download_damage() : std::vector<double>{};
 }
 
 shared::Ledger Simulation::ledger() const

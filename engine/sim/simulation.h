@@ -13,7 +13,9 @@
 #include "sim/dust.h"
 #include "sim/emission.h"
 #include "sim/erosion.h"
+#include "sim/exposure.h"
 #include "sim/fluid_kernels.h"
+#include "sim/hydraulic.h"
 #include "sim/implicit_viscosity.h"
 #include "sim/melting.h"
 #include "sim/neighbor_grid.h"
@@ -28,8 +30,9 @@ struct SimulationSettings {
     FluidOptions options;
     std::optional<shared::DustParams> dust; ///< where some of the solids crumble
     EmissionSettings emission;
-    std::optional<MeltingSettings> melting; ///< where heat is followed
-    std::optional<WindSettings> wind;       ///< where there is sand
+    std::optional<MeltingSettings> melting;     ///< where heat is followed
+    std::optional<HydraulicSettings> hydraulic; ///< where flow erodes solids
+    std::optional<WindSettings> wind;           ///< where there is sand
 };
 
 /// The params with the numbers of particles and the grid size filled in: all of them move.
@@ -63,6 +66,8 @@ public:
     [[nodiscard]] const ParticleBuffers& particles() const { return particles_; }
     /// As the passes have them.
     [[nodiscard]] const shared::SphParams& params() const { return params_; }
+    /// When fronts or heat have freed who is solid no more, or fronts will: float by id, s. Null where nothing does.
+    [[nodiscard]] const gpu::Buffer* release_time() const { return erosion_ ? &erosion_->release_time() : nullptr; }
     /// Steps since the start.
     [[nodiscard]] std::uint64_t step() const { return step_; }
     /// s since the start.
@@ -92,14 +97,14 @@ public:
     /// J/kg, by id; empty where heat is not followed. Waits.
     [[nodiscard]] std::vector<double> enthalpy() const;
 
-    /// What has become of sand since the start.
-    struct SandStatistics {
-        std::uint64_t deposited = 0; ///< particles that were loose and have come to rest
-        double picked_up = 0.0;      ///< kg, that the wind has taken
-    };
-    [[nodiscard]] const SandStatistics& sand_statistics() const { return sand_; }
+    /// kg of sand that the wind has taken since the start.
+    [[nodiscard]] double picked_up() const { return picked_up_; }
     /// Where there is sand.
     [[nodiscard]] const Wind* wind() const { return wind_ ? &*wind_ : nullptr; }
+    /// How far hydraulic erosion has come, 0 to 1, by id; empty where nothing erodes. Waits.
+    [[nodiscard]] std::vector<double> damage() const;
+    /// Particles of sediment and sand that have become solid again since the start.
+    [[nodiscard]] std::uint64_t deposited() const { return deposited_; }
 
     /// Particles that have come and gone since the start. Waits.
     [[nodiscard]] shared::Ledger ledger() const;
@@ -155,7 +160,9 @@ private:
     /// Where a look at the solids and the dead is due: those that are due to turn into fluid or dust do, those that are
     /// to be born soon are called up, and the pool is parted anew. `time` in s since the start.
     void erode(double time);
-    void note_sand(const shared::PoolChanges& found);
+    void note_picked_up(const shared::PoolChanges& found);
+    /// Where solids are exposed and what of them is seen: whenever others are solid.
+    void record_surface(gpu::Commands& commands) const;
     /// Throws where there is a fault; `time` of it in s since the start.
     static void check_status(const shared::Status& status, double time);
     /// Steps from this look to the next.
@@ -191,8 +198,10 @@ private:
     std::optional<Erosion> erosion_;
     std::optional<Dust> dust_;
     std::optional<Emission> emission_;
+    std::optional<Exposure> exposure_; ///< where a driver asks for it
     std::optional<Melting> melting_;
     std::optional<Wind> wind_;
+    std::optional<Hydraulic> hydraulic_;
     ParticleBuffers particles_;
     NeighborGrid grid_;
     gpu::Buffer params_buffer_;
@@ -203,10 +212,11 @@ private:
     std::unique_ptr<BoundaryForces> boundary_forces_;
     std::unique_ptr<gpu::Commands> commands_;
     std::unique_ptr<gpu::Commands> erosion_commands_; ///< apart, so that timings() are those of steps
-    SandStatistics sand_;
+    double picked_up_ = 0.0;                          ///< kg
     std::uint64_t step_ = 0;
     std::uint64_t next_erosion_ = 0;    ///< the step before which solids are looked at
     double looked_at_ = 0.0;            ///< s, when that was done last
+    std::uint64_t deposited_ = 0;       ///< particles, since the start
     std::uint32_t gone_ = 0;            ///< particles that are dead and lie behind all others
     float dt_limit_ = 0.0f;             ///< s, how long the last step might have been
     double seconds_ = 0.0;              ///< since the start

@@ -213,9 +213,8 @@ Wind::Wind(const gpu::Context& context, const FluidOptions& options, const share
            const WindSettings& settings)
     : params_(wind_params(settings, params, options.kernel)), time_scale_(settings.time_scale),
       longest_look_(0.025 * shortest_erosion(params_, params, settings.time_scale)),
-      exposure_(context, options, params.pool_count), visibility_(context, wind_view(params_), params),
-      from_above_(context, ground_view(params_), params), ground_kernel_(context, "ground", sim_ground_comp),
-      erode_(context, "wind_erode", sim_wind_erode_comp),
+      visibility_(context, wind_view(params_), params), from_above_(context, ground_view(params_), params),
+      ground_kernel_(context, "ground", sim_ground_comp), erode_(context, "wind_erode", sim_wind_erode_comp),
       hop_(context, "hop", sim_hop_comp, fluid_constants(context.info(), one_by_one(options))),
       land_(context, "land", sim_land_comp, fluid_constants(context.info(), one_by_one(options))),
       land_apply_(context, "land_apply", sim_land_apply_comp),
@@ -236,24 +235,23 @@ void Wind::record_start(gpu::Commands& commands) const
 }
 
 void Wind::record_surface(gpu::Commands& commands, const gpu::Buffer& params, const ParticleBuffers& particles,
-                          const NeighborGrid& grid) const
+                          const Exposure& exposure) const
 {
     const gpu::Scope scope(commands, "sand surface");
-    exposure_.record_start(commands);
-    exposure_.record(commands, params, particles, grid);
-    visibility_.record(commands, params, particles, exposure_.exposure());
-    from_above_.record(commands, params, particles, exposure_.exposure());
+    visibility_.record(commands, params, particles, exposure.exposure());
+    from_above_.record(commands, params, particles, exposure.exposure());
     commands.dispatch(ground_kernel_, from_above_.texels(), gpu::NoPush{},
                       {read(params), read(from_above_.params()), read(from_above_.map()), write(ground_)});
 }
 
 void Wind::record_changes(gpu::Commands& commands, const gpu::Buffer& params, const ParticleBuffers& particles,
-                          const NeighborGrid& grid, const gpu::Buffer& changes, double seconds) const
+                          const NeighborGrid& grid, const Exposure& exposure, const gpu::Buffer& changes,
+                          double seconds) const
 {
     const gpu::Scope scope(commands, "wind");
     commands.dispatch(erode_, particles.count - particles.moving, static_cast<float>(seconds * time_scale_),
                       {read(params), read(params_buffer_), read(from_above_.params()), read(ground_),
-                       read(particles.id), read(exposure_.exposure()), read(visibility_.visibility()),
+                       read(particles.id), read(exposure.exposure()), read(visibility_.visibility()),
                        read_write(damage_), read_write(particles.attributes), read_write(particles.position),
                        read_write(particles.velocity), read_write(changes)});
     commands.dispatch(land_, particles.moving, gpu::NoPush{},
@@ -279,8 +277,8 @@ void Wind::record_step(gpu::Commands& commands, const Fluid& fluid, const gpu::B
 
 std::uint64_t Wind::device_bytes() const
 {
-    return exposure_.device_bytes() + visibility_.device_bytes() + from_above_.device_bytes() + params_buffer_.size() +
-           ground_.size() + damage_.size() + rests_.size() + lands_.size();
+    return visibility_.device_bytes() + from_above_.device_bytes() + params_buffer_.size() + ground_.size() +
+           damage_.size() + rests_.size() + lands_.size();
 }
 
 } // namespace meltpoint::sim

@@ -66,14 +66,16 @@ public:
     /// Nobody is damaged, at rest or about to land.
     void record_start(gpu::Commands& commands) const;
 
-    /// Where solids are exposed and seen by the wind, and the ground: to be found out again whenever others are solid.
+    /// What of solids the wind sees, and the ground: to be found out again whenever others are solid. `exposure` must
+    /// be that of the present solids.
     void record_surface(gpu::Commands& commands, const gpu::Buffer& params, const ParticleBuffers& particles,
-                        const NeighborGrid& grid) const;
+                        const Exposure& exposure) const;
 
     /// What the wind has taken in the `seconds` of motion since the last look, what begins to slide, and what has
     /// landed, counted in `changes`, shared::PoolChanges: they lie among the others yet.
     void record_changes(gpu::Commands& commands, const gpu::Buffer& params, const ParticleBuffers& particles,
-                        const NeighborGrid& grid, const gpu::Buffer& changes, double seconds) const;
+                        const NeighborGrid& grid, const Exposure& exposure, const gpu::Buffer& changes,
+                        double seconds) const;
 
     /// Sand that hops or slides moves by the step that has just been taken. ledger: shared::Ledger.
     void record_step(gpu::Commands& commands, const Fluid& fluid, const gpu::Buffer& ledger) const;
@@ -96,7 +98,6 @@ private:
     shared::WindParams params_;
     double time_scale_;
     double longest_look_;
-    Exposure exposure_;
     Visibility visibility_; ///< by the wind
     Visibility from_above_;
     std::uint32_t texels_; ///< of the ground

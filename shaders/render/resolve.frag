@@ -19,6 +19,8 @@ layout(binding = 7, scalar) readonly buffer Attributes { uint attributes[]; };
 layout(binding = 8, scalar) readonly buffer DiscPositions { vec4 disc_position_radius[]; };
 layout(binding = 9, scalar) readonly buffer DiscNormals { vec4 disc_normal[]; };
 layout(binding = 10, scalar) readonly buffer DiscColors { vec4 disc_color[]; };
+layout(binding = 11, scalar) readonly buffer Ids { uint id[]; };
+layout(binding = 12, scalar) readonly buffer FreedAt { float freed_at[]; }; // by id, s
 
 layout(location = 0) out vec4 out_color;
 
@@ -39,10 +41,20 @@ const vec3 LUMINANCE = vec3(0.2126, 0.7152, 0.0722); // of linear RGB (ITU-R BT.
 
 float in_range(float value) { return (value - params.color_range.x) / (params.color_range.y - params.color_range.x); }
 
+// How much of a solid's color a particle still has.
+float solid_share(uint particle)
+{
+    uint state = particle_state(attributes[particle]);
+    if (state != STATE_FLUID || cause_of(attributes[particle]) == CAUSE_NONE || params.blend_time <= 0.0) {
+        return state == STATE_SOLID || state == STATE_DUST ? 1.0 : 0.0;
+    }
+    return 1.0 - smoothstep(0.0, params.blend_time, params.time - freed_at[id[particle]]);
+}
+
 vec3 particle_color(uint particle)
 {
     uint material = min(particle_material(attributes[particle]), MAX_MATERIALS - 1u);
-    vec3 color = (particle_state(attributes[particle]) == STATE_SOLID || particle_state(attributes[particle]) == STATE_DUST) ? params.solid_color[material] : params.material_color[material];
+    vec3 color = mix(params.material_color[material], params.solid_color[material], solid_share(particle));
     if (params.color_mode != COLOR_MATERIAL && is_boundary(attributes[particle])) { // it has none of these quantities
         return vec3(dot(color, LUMINANCE));
     }

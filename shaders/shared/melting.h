@@ -9,9 +9,6 @@ SHARED_BEGIN
 // Spacings: fluid freezes to solids that are so near.
 SHARED_CONSTANT float FREEZING_DISTANCE = 1.5f;
 
-// Fluid a spacing off a surface covers it where it fills so much of the space: sun and air do not reach it then.
-SHARED_CONSTANT float COVER_FILLING = 0.5f;
-
 struct MeltingParams {
     vec3 sun_direction;    // that its light travels in, of length 1
     float sun;             // W/m^2

@@ -40,6 +40,7 @@ SHARED_CONSTANT uint CAUSE_SHIFT = 24u;
 SHARED_CONSTANT uint CAUSE_NONE = 0u;
 SHARED_CONSTANT uint CAUSE_FRONT = 1u;
 SHARED_CONSTANT uint CAUSE_MELT = 2u;
+SHARED_CONSTANT uint CAUSE_HYDRAULIC = 3u;
 SHARED_CONSTANT uint CAUSE_WIND = 4u;  // it hops (shared/wind.h)
 SHARED_CONSTANT uint CAUSE_SLIDE = 5u; // of sand that has come down, or was too steep
 SHARED_FUNCTION uint cause_of(uint attributes) { return (attributes >> CAUSE_SHIFT) & 7u; } // CAUSE_*

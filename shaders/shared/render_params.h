@@ -63,6 +63,8 @@ struct RenderParams {
     vec3 material_color[MAX_MATERIALS];
     vec3 solid_color[MAX_MATERIALS]; // of it as a solid
     float rest_density[MAX_MATERIALS]; // kg/m^3
+    float time;       // s, of the frame
+    float blend_time; // s, in which what was solid takes on the color of its fluid; 0 where nobody knows when it was freed
 };
 
 SHARED_END

@@ -19,9 +19,9 @@ layout(set = 0, binding = 6, scalar) writeonly buffer Exposure { vec4 exposure[]
 
 #include "include/periodic.glsl"
 
-// Of x or an image of it: the sum over the still particles nearer than the support radius, whose rows of cells may be any
-// number (the cells are made for the fluid's kernel).
-vec3 away_from_solid(vec3 x, float support_radius)
+// Of x or an image of it: the sums over the still particles nearer than the support radius, whose rows of cells may be any
+// number (the cells are made for the fluid's kernel). xyz leads away from what is solid, w is how full of it the place is.
+vec4 solid_around(vec3 x, float support_radius)
 {
     ivec3 size = ivec3(params.grid_size);
     ivec3 low = cell_coordinates(x - support_radius, params.domain_min, params.support_radius, params.grid_size);
@@ -29,7 +29,7 @@ vec3 away_from_solid(vec3 x, float support_radius)
     low = clamp(low, ivec3(0), size - 1);
     high = clamp(high, ivec3(0), size - 1);
     int still = size.x * size.y * size.z; // where the cell starts of the still particles begin
-    vec3 sum = vec3(0.0);
+    vec4 sum = vec4(0.0);
     for (int z = low.z; z <= high.z; ++z) {
         for (int y = low.y; y <= high.y; ++y) {
             int row = still + cell_index(ivec3(0, y, z), params.grid_size);
@@ -38,11 +38,12 @@ vec3 away_from_solid(vec3 x, float support_radius)
                 vec4 neighbor = load_candidate(position, j);
                 vec3 offset = x - neighbor.xyz;
                 float u = max(1.0 - length(offset) / support_radius, 0.0);
-                sum += neighbor.w * u * u * u * offset;
+                float weight = neighbor.w * u * u * u;
+                sum += weight * vec4(offset, u * (5.0 - 4.0 * u));
             }
         }
     }
-    return sum / support_radius;
+    return vec4(sum.xyz / support_radius, sum.w);
 }
 
 void main()
@@ -60,7 +61,7 @@ void main()
     bvec3 at_high = lessThan(params.domain_max - x, vec3(support_radius));
     ivec3 first = -ivec3(at_low) * ivec3(notEqual(borders & uvec3(1u, 4u, 16u), uvec3(0u)));
     ivec3 last = ivec3(at_high) * ivec3(notEqual(borders & uvec3(2u, 8u, 32u), uvec3(0u)));
-    vec3 sum = vec3(0.0);
+    vec4 sum = vec4(0.0);
     ivec3 side;
     for (side.z = first.z; side.z <= last.z; ++side.z) {
         for (side.y = first.y; side.y <= last.y; ++side.y) {
@@ -68,12 +69,13 @@ void main()
                 bvec3 reflects = mix(notEqual(side, ivec3(0)), bvec3(false), periodic_axes());
                 vec3 border = mix(params.domain_min, params.domain_max, greaterThan(side, ivec3(0)));
                 vec3 image = mix(x - vec3(side) * extent, 2.0 * border - x, reflects);
-                sum += mix(vec3(1.0), vec3(-1.0), reflects) * away_from_solid(image, support_radius);
+                sum += vec4(mix(vec3(1.0), vec3(-1.0), reflects), 1.0) * solid_around(image, support_radius);
             }
         }
     }
-    float size = length(sum);
-    float share = push.area_scale * size; // of the face of a lattice cell
-    exposure[id[i]] =
-        share < LEAST_EXPOSURE ? vec4(0.0) : vec4(sum / size, share * params.lattice_volume / params.spacing);
+    float size = length(sum.xyz);
+    float thinness = max(1.0 - push.filling_scale * sum.w / THIN_FILLING, 0.0);
+    float share = max(push.area_scale * size, push.faces * thinness); // of the face of a lattice cell
+    vec3 normal = size > 0.0 ? sum.xyz / size : vec3(0.0);
+    exposure[id[i]] = share < LEAST_EXPOSURE ? vec4(0.0) : vec4(normal, share * params.lattice_volume / params.spacing);
 }

@@ -18,7 +18,8 @@ layout(set = 0, binding = 4, scalar) readonly buffer Enthalpy { vec2 enthalpy[];
 layout(set = 0, binding = 5, scalar) readonly buffer Position { vec4 position[]; };
 layout(set = 0, binding = 6, scalar) buffer Attributes { uint attributes[]; };
 layout(set = 0, binding = 7, scalar) buffer Velocity { vec4 velocity[]; }; // w: mass, negative of boundary particles
-layout(set = 0, binding = 8, scalar) buffer Changes { PoolChanges changes; };
+layout(set = 0, binding = 8, scalar) writeonly buffer ReleaseTime { float release_time[]; }; // by id, s
+layout(set = 0, binding = 9, scalar) buffer Changes { PoolChanges changes; };
 
 bool touches_solid(vec3 x)
 {
@@ -46,6 +47,7 @@ void main()
     if (touches_solid(position[i].xyz)) {
         attributes[i] = with_state(attributes[i], STATE_SOLID);
         velocity[i] = vec4(vec3(0.0), -abs(velocity[i].w));
+        release_time[id[i]] = uintBitsToFloat(0x7f800000u); // no front is on its way to it
         atomicAdd(changes.frozen, 1u);
     }
 }

@@ -8,6 +8,7 @@
 #include "shared/particle_state.h"
 #include "shared/pool_changes.h"
 
+layout(push_constant, scalar) uniform Push { float time; }; // s
 layout(set = 0, binding = 0, scalar) uniform Params { SphParams params; };
 layout(set = 0, binding = 1, scalar) uniform Heat { HeatParams heat; };
 layout(set = 0, binding = 2, scalar) uniform Melting { MeltingParams melting; };
@@ -15,7 +16,8 @@ layout(set = 0, binding = 3, scalar) readonly buffer Id { uint id[]; };
 layout(set = 0, binding = 4, scalar) readonly buffer Enthalpy { vec2 enthalpy[]; }; // by id, two-floats
 layout(set = 0, binding = 5, scalar) buffer Attributes { uint attributes[]; };
 layout(set = 0, binding = 6, scalar) buffer Velocity { vec4 velocity[]; }; // w: mass, negative of boundary particles
-layout(set = 0, binding = 7, scalar) buffer Changes { PoolChanges changes; };
+layout(set = 0, binding = 7, scalar) writeonly buffer ReleaseTime { float release_time[]; }; // by id, s
+layout(set = 0, binding = 8, scalar) buffer Changes { PoolChanges changes; };
 
 void main()
 {
@@ -27,6 +29,7 @@ void main()
     if (melting.melts[material] != 0u && enthalpy[id[i]].x >= heat.of[material].latent_heat) {
         attributes[i] = freed_as(attributes[i], STATE_FLUID, CAUSE_MELT);
         velocity[i].w = abs(velocity[i].w);
+        release_time[id[i]] = time;
         atomicAdd(changes.freed, 1u);
     }
 }

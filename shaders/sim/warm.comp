@@ -8,6 +8,7 @@
 #include "include/invocation.glsl"
 #include "include/neighbor_walk.glsl" // of the moving particles alone
 #include "include/sph_kernel.glsl"
+#include "shared/exposure.h"
 #include "shared/heat.h"
 #include "shared/melting.h"
 #include "shared/particle_state.h"

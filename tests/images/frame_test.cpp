@@ -143,6 +143,29 @@ TEST_F(FrameTest, DeadAndNonFiniteParticlesAreNotDrawn)
     EXPECT_TRUE(close(center_color(settings, particles), settings.background));
 }
 
+TEST_F(FrameTest, WhatWasSolidTakesOnTheColorOfItsFluid)
+{
+    render::FrameSettings settings = close_up();
+    settings.material_color[0] = {0.1f, 0.2f, 0.9f};
+    settings.solid_color[0] = {0.8f, 0.6f, 0.1f};
+    settings.blend_time = 2.0f;
+    TestParticles particles;
+    particles.add({});
+    particles.add(glm::vec3(0.0f, 0.0f, -1.0f)); // out of sight: so that ids and places differ
+    const auto color = [&](float time) {
+        particles.time = time;
+        return center_color(settings, particles);
+    };
+    particles.freed_at = {7.0f, 3.0f};
+    EXPECT_TRUE(close(color(3.0f), settings.material_color[0])); // it never was solid
+    particles.attributes[0] = shared::freed_as(particles.attributes[0], shared::STATE_FLUID, shared::CAUSE_MELT);
+    EXPECT_TRUE(close(color(3.0f), settings.solid_color[0]));
+    EXPECT_TRUE(close(color(4.0f), 0.5f * (settings.solid_color[0] + settings.material_color[0])));
+    EXPECT_TRUE(close(color(5.1f), settings.material_color[0]));
+    settings.blend_time = 0.0f;
+    EXPECT_TRUE(close(color(3.0f), settings.material_color[0]));
+}
+
 TEST_F(FrameTest, TheSameFrameHasTheSameBits)
 {
     render::FrameSettings settings = close_up();

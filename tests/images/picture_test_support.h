@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <map>
 #include <memory>
+#include <numeric>
 #include <optional>
 #include <string>
 #include <vector>
@@ -27,6 +28,8 @@ struct TestParticles {
     std::vector<float> density;
     std::vector<float> pressure;
     std::vector<std::uint32_t> attributes;
+    std::vector<float> freed_at; ///< by id, if not empty
+    float time = 0.0f;
 
     void add(const glm::vec3& at, std::uint32_t material = 0, std::uint32_t state = shared::STATE_FLUID)
     {
@@ -91,6 +94,10 @@ protected:
         const gpu::Buffer density = to_device(context(), p.density, "density");
         const gpu::Buffer pressure = to_device(context(), p.pressure, "pressure");
         const gpu::Buffer attributes = to_device(context(), p.attributes, "attributes");
+        std::vector<std::uint32_t> ids(p.position.size());
+        std::iota(ids.rbegin(), ids.rend(), 0u); // they need not lie in order
+        const gpu::Buffer id = to_device(context(), ids, "id");
+        const gpu::Buffer freed_at = to_device(context(), p.freed_at, "freed at");
 
         std::vector<glm::vec4> disc_position;
         std::vector<glm::vec4> disc_normal;
@@ -107,7 +114,8 @@ protected:
         commands.begin();
         renderer.draw(commands, {settings,
                                  render::ParticleView{position, velocity, density, pressure, attributes,
-                                                      static_cast<std::uint32_t>(p.position.size())},
+                                                      static_cast<std::uint32_t>(p.position.size()),
+                                                      p.freed_at.empty() ? nullptr : &freed_at, &id, p.time},
                                  disc_buffers.view()});
         commands.submit();
         commands.wait();

@@ -147,11 +147,13 @@ std::string cell(const FrameStatistics& statistics, const std::string& column)
 
 TEST(FrameStatistics, ColumnsStayWhereTheyAre)
 {
-    EXPECT_EQ(statistics_header(),
-              "frame,time,steps,dt,solid,fluid,dust,collider,dead,mass,kinetic_energy,potential_energy,momentum_x,"
-              "momentum_y,momentum_z,com_x,com_y,com_z,min_x,min_y,min_z,max_x,max_y,max_z,density_error_mean,"
-              "density_error_max,speed_max,outside,neighbors_mean,simulate_ms,draw_ms,iterations_density,iterations_"
-              "divergence,iterations_viscosity\n");
+    EXPECT_EQ(
+        statistics_header(),
+        "frame,time,steps,dt,solid,fluid,dust,collider,dead,mass,kinetic_energy,potential_energy,momentum_x,"
+        "momentum_y,momentum_z,com_x,com_y,com_z,min_x,min_y,min_z,max_x,max_y,max_z,density_error_mean,"
+        "density_error_max,speed_max,outside,neighbors_mean,simulate_ms,draw_ms,iterations_density,iterations_"
+        "divergence,iterations_viscosity,deposited,enthalpy,solid_volume,exposed_area,fragments,emitted,sunk,rate_melt,"
+        "rate_hydraulic,rate_wind,rate_dissolve\n");
 }
 
 TEST(FrameStatistics, EveryValueStandsInItsColumn)
@@ -189,6 +191,35 @@ TEST(FrameStatistics, EveryValueStandsInItsColumn)
     EXPECT_EQ(cell(s, "iterations_density"), "4.5");
     EXPECT_EQ(cell(s, "iterations_divergence"), "1.25");
     EXPECT_EQ(cell(s, "iterations_viscosity"), "8");
+    EXPECT_EQ(cell(s, "solid_volume"), "0.004"); // 4 kg of 1000 kg/m^3
+    EXPECT_EQ(cell(s, "emitted") + cell(s, "sunk"), "00");
+    EXPECT_EQ(cell(s, "enthalpy") + cell(s, "exposed_area") + cell(s, "rate_melt") + cell(s, "rate_hydraulic") +
+                  cell(s, "rate_wind") + cell(s, "rate_dissolve"),
+              "");
+    s.emitted = 12;
+    s.sunk = 3;
+    s.enthalpy = -2.5;
+    s.exposed_area = 0.125;
+    s.rate_melt = 0.5;
+    s.rate_dissolve = 0.25;
+    EXPECT_EQ(cell(s, "emitted"), "12");
+    EXPECT_EQ(cell(s, "sunk"), "3");
+    EXPECT_EQ(cell(s, "enthalpy"), "-2.5");
+    EXPECT_EQ(cell(s, "exposed_area"), "0.125");
+    EXPECT_EQ(cell(s, "rate_melt"), "0.5");
+    EXPECT_EQ(cell(s, "rate_dissolve"), "0.25");
+}
+
+TEST(FrameStatistics, KnowsWhatHasFreedASolid)
+{
+    ParticleSet set = one_of_each();
+    EXPECT_EQ(measure(set, params()).freed_mass[shared::CAUSE_MELT], 0.0);
+    set.attributes[0] = shared::freed_as(set.attributes[0], shared::STATE_FLUID, shared::CAUSE_MELT);
+    set.attributes[3] = shared::freed_as(set.attributes[3], shared::STATE_DUST, shared::CAUSE_FRONT);
+    set.attributes[2] = shared::freed_as(set.attributes[2], shared::STATE_SOLID, shared::CAUSE_MELT); // frozen again
+    const FrameStatistics s = measure(set, params());
+    EXPECT_EQ(s.freed_mass[shared::CAUSE_MELT], 2.0);
+    EXPECT_EQ(s.freed_mass[shared::CAUSE_FRONT], 0.5);
 }
 
 TEST(FrameStatistics, UndefinedIsEmpty)

@@ -182,8 +182,40 @@ TEST(MeshScene, LargestAndSmallestMeshesMakeValidScenes)
     const test::ScratchFolder folder;
     for (const char* edge : {"0.001", "1000", "2000"}) {
         test::write_bytes(folder / "cube.obj", cube_obj(edge));
-        EXPECT_NO_THROW(static_cast<void>(find_scene((folder / "cube.obj").string(), {}))) << edge;
+        for (const LookName& look : look_names()) {
+            EXPECT_NO_THROW(static_cast<void>(find_scene((folder / "cube.obj").string(), {}, look.look)))
+                << edge << ", " << look.name;
+        }
     }
+}
+
+TEST(MeshScene, SolidsOfLooksStandOnTheFloor)
+{
+    for (const Look look : {Look::Melt, Look::Vanish}) {
+        const Scene scene = find_scene("builtin:torus", std::vector<std::string>{"particles.spacing=0.1"}, look);
+        ASSERT_EQ(scene.solids.size(), 1u);
+        EXPECT_EQ(scene.solids[0].melts, look == Look::Melt);
+        EXPECT_EQ(scene.solids[0].becomes == SolidBecomes::Dust, look == Look::Vanish);
+        const ParticleSet set = make_particles(scene, 1'000'000);
+        float lowest = 1e9f;
+        for (const glm::vec3& x : set.position) {
+            lowest = std::min(lowest, x.y);
+        }
+        EXPECT_GT(lowest, 0.0f);
+        EXPECT_LT(lowest, 1.5f * scene.particles.spacing);
+    }
+    EXPECT_THROW(static_cast<void>(find_scene("drop", {}, Look::Melt)), Error);
+}
+
+TEST(MeshScene, IceOfEverySizeIsGoneInAsManyFrames)
+{
+    const test::ScratchFolder folder;
+    test::write_bytes(folder / "small.obj", cube_obj("0.09"));
+    test::write_bytes(folder / "large.obj", cube_obj("9"));
+    const Scene small = mesh_scene((folder / "small.obj").string(), Look::Melt);
+    const Scene large = mesh_scene((folder / "large.obj").string(), Look::Melt);
+    const float heat_per_frame = large.heat.time_scale / large.time.frame_rate;
+    EXPECT_NEAR(heat_per_frame / (small.heat.time_scale / small.time.frame_rate), 100.0f, 1e-2f);
 }
 
 } // namespace

@@ -595,7 +595,15 @@ Scene random_scene(std::uint64_t seed)
         front.direction = (i + seed) % 2 == 0 ? front.direction : std::nullopt;
         front.point = (i + seed) % 2 == 0 ? std::nullopt : front.point;
     }
+    for (FluidBody& fluid : scene.fluids) {
+        fluid.temperature = fluid.thermal.melting_point + 3.5f;
+    }
+    for (SolidBody& solid : scene.solids) { // heat turns none into dust
+        solid.temperature = solid.thermal.melting_point - 3.5f;
+        solid.becomes = solid.melts ? SolidBecomes::Fluid : solid.becomes;
+    }
     for (EmitterBody& emitter : scene.emitters) {
+        emitter.fluid.temperature = emitter.fluid.thermal.melting_point + 3.5f;
         emitter.velocity.x += 3.0f;
         emitter.stop = emitter.start + 0.3f;
     }

@@ -256,7 +256,7 @@ TEST_F(MeltingTest, WaterFreezesToAColdPlateAndNowhereElse)
         start.mass.back() = 0.0f;
         its.melting->enthalpy.push_back(-60.0);
     }
-    start.release_time.assign(start.size(), std::numeric_limits<float>::infinity());
+    start.release_time.assign(start.size(), 0.0f); // as of water that was ice, or came out of an emitter
     sim::Simulation simulation(context(), start, its);
     std::size_t before = 0;
     for (int portion = 0; portion < 4; ++portion) {
@@ -265,7 +265,8 @@ TEST_F(MeltingTest, WaterFreezesToAColdPlateAndNowhereElse)
         const std::size_t frozen = count(now, shared::STATE_SOLID);
         EXPECT_GT(frozen, before);
         before = frozen;
-        for (std::size_t i = 0; i < now.size(); ++i) { // a sheet that grows from the plate
+        for (std::size_t i = 0; i < now.size(); ++i) {                          // a sheet that grows from the plate
+            EXPECT_EQ(shared::cause_of(now.attributes[i]), shared::CAUSE_NONE); // none was freed again
             if (shared::particle_state(now.attributes[i]) == shared::STATE_SOLID) {
                 EXPECT_LT(now.position[i].y, 0.05f + test_spacing * static_cast<float>(frozen) / 400.0f + 0.12f);
             }

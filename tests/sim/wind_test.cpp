@@ -178,7 +178,7 @@ TEST_F(SandTest, AFlatBedLosesItsFluxOverTheLengthOfAHop)
     EXPECT_NEAR(8.0 * static_cast<double>(test_spacing) / (times[1] - times[0]) / speed, 1.0, 0.03);
     const double gone = 1000.0 * std::pow(static_cast<double>(test_spacing), 3) *
                         static_cast<double>(5600 - count(simulation.download(), shared::STATE_SOLID));
-    EXPECT_NEAR(simulation.sand_statistics().picked_up / gone, 1.0, 1e-6);
+    EXPECT_NEAR(simulation.picked_up() / gone, 1.0, 1e-6);
 }
 
 TEST_F(SandTest, BelowTheThresholdNothingMoves)
@@ -189,7 +189,7 @@ TEST_F(SandTest, BelowTheThresholdNothingMoves)
     sim::Simulation simulation(context(), start, its);
     simulation.advance(200);
     EXPECT_EQ(count(simulation.download(), shared::STATE_SOLID), start.size());
-    EXPECT_EQ(simulation.sand_statistics().picked_up, 0.0);
+    EXPECT_EQ(simulation.picked_up(), 0.0);
 }
 
 TEST_F(SandTest, NoSandLeavesShelteredPlaces)
@@ -249,7 +249,7 @@ TEST_F(SandTest, GrainsHopAsFarAsTheyAreMeantTo)
         mean += static_cast<double>(now.position[i].x - start.position[i].x) / 20.0;
     }
     EXPECT_NEAR(mean / expected, 1.0, 0.2); // twenty of random strength
-    EXPECT_EQ(simulation.sand_statistics().deposited, 20u);
+    EXPECT_EQ(simulation.deposited(), 20u);
 }
 
 TEST_F(SandTest, RerunsAreBitIdenticalAndTheLedgerIsExact)
@@ -272,7 +272,7 @@ TEST_F(SandTest, RerunsAreBitIdenticalAndTheLedgerIsExact)
         }
         run = simulation.download();
         EXPECT_GT(simulation.ledger().sunk, 50u);
-        EXPECT_GT(simulation.sand_statistics().deposited, 50u);
+        EXPECT_GT(simulation.deposited(), 50u);
     }
     EXPECT_EQ(seen[0].attributes, seen[1].attributes);
     EXPECT_EQ(seen[0].position, seen[1].position);

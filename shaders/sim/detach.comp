@@ -1,0 +1,34 @@
+#version 460
+#extension GL_GOOGLE_include_directive : require
+// Solid particles that flow has worn away are free: fluid of their own material, at the place where they were and with the same
+// mass (shared/hydraulic.h). Twin: engine/reference/hydraulic.cpp.
+#include "include/invocation.glsl"
+#include "shared/hydraulic.h"
+#include "shared/particle_state.h"
+#include "shared/pool_changes.h"
+
+layout(push_constant, scalar) uniform Push { float time; }; // s
+layout(set = 0, binding = 0, scalar) uniform Params { SphParams params; };
+layout(set = 0, binding = 1, scalar) uniform Hydraulic { HydraulicParams hydraulic; };
+layout(set = 0, binding = 2, scalar) readonly buffer Id { uint id[]; };
+layout(set = 0, binding = 3, scalar) buffer Damage { vec2 damage[]; }; // by id, two-floats
+layout(set = 0, binding = 4, scalar) buffer Attributes { uint attributes[]; };
+layout(set = 0, binding = 5, scalar) buffer Velocity { vec4 velocity[]; }; // w: mass, negative of boundary particles
+layout(set = 0, binding = 6, scalar) writeonly buffer ReleaseTime { float release_time[]; }; // by id, s
+layout(set = 0, binding = 7, scalar) buffer Changes { PoolChanges changes; };
+
+void main()
+{
+    uint i = params.moving_count + invocation_index();
+    if (i >= params.pool_count || particle_state(attributes[i]) != STATE_SOLID) {
+        return;
+    }
+    uint slot = id[i];
+    if (hydraulic.erodes[particle_material(attributes[i])] != 0u && damage[slot].x >= 1.0) {
+        damage[slot] = vec2(1.0, 0.0);
+        attributes[i] = freed_as(attributes[i], STATE_FLUID, CAUSE_HYDRAULIC);
+        velocity[i].w = abs(velocity[i].w);
+        release_time[slot] = time;
+        atomicAdd(changes.freed, 1u);
+    }
+}
