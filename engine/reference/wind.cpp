@@ -17,25 +17,61 @@ double height_of(const shared::WindParams& wind, const glm::dvec3& x)
     return glm::dot(x, glm::dvec3(wind.up)) - static_cast<double>(wind.floor_height);
 }
 
-const Ground& ground_at(const SandScene& scene, const glm::dvec3& x)
+glm::ivec2 texel_at(const SandScene& scene, const glm::dvec3& x)
 {
     const glm::dvec3 offset = (x - glm::dvec3(scene.view.origin)) / static_cast<double>(scene.view.texel);
     const glm::ivec2 size(scene.view.width, scene.view.height);
     const glm::dvec2 place(glm::dot(offset, glm::dvec3(scene.view.right)), glm::dot(offset, glm::dvec3(scene.view.up)));
-    const glm::ivec2 texel = glm::clamp(glm::ivec2(glm::floor(place)), glm::ivec2(0), size - 1);
+    return glm::clamp(glm::ivec2(glm::floor(place)), glm::ivec2(0), size - 1);
+}
+
+const Ground& ground_at(const SandScene& scene, const glm::dvec3& x)
+{
+    const glm::ivec2 texel = texel_at(scene, x);
     return scene.ground[static_cast<std::size_t>(texel.y) * scene.view.width + static_cast<std::size_t>(texel.x)];
 }
 
-bool is_steep(const SandScene& scene, const glm::dvec3& x, float tangent)
+/// Along a unit vector that is an axis or its opposite.
+bool is_periodic_along(const Settings& settings, const glm::vec3& along)
 {
-    const glm::dvec3 gradient = ground_at(scene, x).slope;
-    const double slope = glm::length(gradient);
-    const double way = static_cast<double>(shared::DROP_REACH) * static_cast<double>(scene.view.texel);
-    if (slope <= static_cast<double>(tangent)) {
-        return false;
+    for (int axis = 0; axis < 3; ++axis) {
+        if (std::abs(along[axis]) > 0.5f && (settings.params.periodic_mask >> (2 * axis) & 1u) != 0) {
+            return true;
+        }
     }
-    const double drop = height_of(scene.wind, x) - ground_at(scene, x - way / slope * gradient).height;
-    return drop > static_cast<double>(shared::LEAST_DROP) * static_cast<double>(tangent) * way;
+    return false;
+}
+
+/// A texel beyond the map's border: that at the border, or, where space is periodic, at the other one.
+int inside(int i, int count, bool is_periodic)
+{
+    return is_periodic ? (i + count) % count : std::clamp(i, 0, count - 1);
+}
+
+/// The gradient of the ground along the steepest of eight ways down from x; zero where all lead up.
+glm::dvec3 steepest_fall(const Settings& settings, const SandScene& scene, const glm::dvec3& x)
+{
+    const shared::VisibilityParams& view = scene.view;
+    const auto width = static_cast<int>(view.width);
+    const glm::ivec2 here = texel_at(scene, x);
+    glm::dvec3 steepest(0.0);
+    for (int k = 0; k < 9; ++k) {
+        if (k == 4) {
+            continue; // no way at all
+        }
+        const glm::ivec2 way = shared::FALL_REACH * glm::ivec2(k % 3 - 1, k / 3 - 1);
+        const int there_x = inside(here.x + way.x, width, is_periodic_along(settings, view.right));
+        const int there_y = inside(here.y + way.y, static_cast<int>(view.height), is_periodic_along(settings, view.up));
+        const double drop =
+            ground_at(scene, x).top - scene.ground[static_cast<std::size_t>(there_y * width + there_x)].top;
+        const glm::dvec3 along =
+            static_cast<double>(way.x) * glm::dvec3(view.right) + static_cast<double>(way.y) * glm::dvec3(view.up);
+        const double slope = drop / (glm::length(along) * static_cast<double>(view.texel));
+        if (slope > glm::length(steepest) + static_cast<double>(shared::EQUAL_FALL)) {
+            steepest = -slope * glm::normalize(along);
+        }
+    }
+    return steepest;
 }
 
 /// Of a position and all its images, the sum of body(offset from particle j to it, the image's reflection).
@@ -69,6 +105,20 @@ double filling_of(const Settings& settings, double r)
            density_shape(settings.kernel, q);
 }
 
+/// Half a spacing off them at least.
+glm::dvec3 held_by_walls(const shared::SphParams& params, glm::dvec3 x)
+{
+    const double distance = 0.5 * static_cast<double>(params.spacing);
+    for (int border = 0; border < 6; ++border) {
+        if ((params.wall_mask >> border & 1u) != 0) {
+            const int axis = border / 2;
+            x[axis] = border % 2 == 0 ? std::max(x[axis], static_cast<double>(params.domain_min[axis]) + distance)
+                                      : std::min(x[axis], static_cast<double>(params.domain_max[axis]) - distance);
+        }
+    }
+    return x;
+}
+
 bool is_sand(std::uint32_t attributes)
 {
     return shared::particle_state(attributes) == shared::STATE_DUST && !shared::is_drifting(attributes);
@@ -88,20 +138,10 @@ std::vector<Ground> ground(const Settings& settings, const shared::VisibilityPar
 {
     const auto width = static_cast<int>(view.width);
     const auto height = static_cast<int>(view.height);
-    const auto is_periodic = [&](const glm::vec3& along) {
-        for (int axis = 0; axis < 3; ++axis) {
-            if (std::abs(along[axis]) > 0.5f && (settings.params.periodic_mask >> (2 * axis) & 1u) != 0) {
-                return true;
-            }
-        }
-        return false;
-    };
-    const auto inside = [](int i, int count, bool periodic) {
-        return periodic ? (i + count) % count : std::clamp(i, 0, count - 1);
-    };
     const auto top_of = [&](int x, int y) {
-        const std::uint32_t depth = map[static_cast<std::size_t>(inside(y, height, is_periodic(view.up)) * width +
-                                                                 inside(x, width, is_periodic(view.right)))];
+        const std::uint32_t depth =
+            map[static_cast<std::size_t>(inside(y, height, is_periodic_along(settings, view.up)) * width +
+                                         inside(x, width, is_periodic_along(settings, view.right)))];
         return depth == shared::NOTHING_SEEN
                    ? -0.5 * static_cast<double>(view.spacing)
                    : (static_cast<double>(shared::DEPTH_STEPS) - depth) / static_cast<double>(view.depth_scale);
@@ -155,7 +195,8 @@ std::size_t erode_by_wind(const Settings& settings, const SandScene& scene, Stat
             state.velocity[i] = static_cast<double>(its.launch_speed) *
                                 static_cast<double>(shared::launch_share(state.id[i])) * glm::dvec3(wind.up);
             damage = 0.0;
-        } else if (is_top && is_steep(scene, state.position[i], its.steepest)) {
+        } else if (is_top &&
+                   glm::length(steepest_fall(settings, scene, state.position[i])) > static_cast<double>(its.steepest)) {
             state.attributes[i] = shared::freed_as(state.attributes[i], shared::STATE_DUST, shared::CAUSE_SLIDE);
             state.velocity[i] = glm::dvec3(0.0);
         } else {
@@ -211,18 +252,13 @@ void move_sand(const Settings& settings, const SandScene& scene, State& state, S
             v += dt * gravity;
         }
         x = wrap_position(params, x + dt * v);
-        for (int border = 0; border < 6 && !hops; ++border) { // walls hold it back
-            if ((params.wall_mask >> border & 1u) != 0) {
-                const int axis = border / 2;
-                x[axis] = border % 2 == 0 ? std::max(x[axis], static_cast<double>(params.domain_min[axis]) + 0.5 * d)
-                                          : std::min(x[axis], static_cast<double>(params.domain_max[axis]) - 0.5 * d);
-            }
-        }
+        x = hops ? x : held_by_walls(params, x);
         const double under_floor = 0.5 * d - height_of(wind, x);
         x += std::max(under_floor, 0.0) * up;
 
         const Ground& below = ground_at(scene, x);
-        const glm::dvec3 n = glm::normalize(up - below.slope);
+        const glm::dvec3 fall = steepest_fall(settings, scene, x);
+        const glm::dvec3 n = glm::normalize(up - fall);
         const glm::dvec2 around = solid_around(settings, wind, state, x);
         const bool touches = under_floor >= 0.0 || around.y >= rest_support;
         const bool runs_into_ground = height_of(wind, x) < below.height - static_cast<double>(shared::BURIED) * d;
@@ -235,12 +271,15 @@ void move_sand(const Settings& settings, const SandScene& scene, State& state, S
             const glm::dvec3 along = v - glm::dot(v, n) * n;
             const double speed = glm::length(along);
             v -= speed > 0.0 ? along * std::min(static_cast<double>(its.friction) * against / speed, 1.0) : along;
-            at_rest = glm::length(v) < static_cast<double>(wind.rest_speed) && !is_steep(scene, x, its.friction);
+            v *= std::min(static_cast<double>(wind.slide_speed) / std::max(glm::length(v), 1e-30), 1.0);
+            at_rest = glm::length(v) < static_cast<double>(wind.rest_speed) &&
+                      glm::length(fall) < static_cast<double>(its.friction);
         }
         if (!hops) {
             const bool crowded = around.x + static_cast<double>(wind.own_filling) > 1.0;
             const double push = crowded ? 1.0 : std::clamp(around.y / rest_support - 1.0, 0.0, 1.0);
-            x += push * static_cast<double>(shared::LONGEST_PUSH) * d * n;
+            x = held_by_walls(params,
+                              wrap_position(params, x + push * static_cast<double>(shared::LONGEST_PUSH) * d * n));
         }
         const bool inside = glm::all(glm::greaterThanEqual(x, glm::dvec3(params.domain_min))) &&
                             glm::all(glm::lessThanEqual(x, glm::dvec3(params.domain_max)));

@@ -176,6 +176,7 @@ shared::WindParams wind_params(const WindSettings& settings, const shared::SphPa
     wind.floor_height = static_cast<float>(glm::dot(up, 0.5 * (low + high)) - 0.5 * glm::dot(glm::abs(up), high - low));
     wind.rest_support = static_cast<float>(support_of(params, kernel));
     wind.own_filling = static_cast<float>(filling_of(params, kernel, 0.0));
+    wind.slide_speed = static_cast<float>(std::sqrt(2.0 * g * spacing));
     wind.rest_speed = static_cast<float>(0.1 * std::sqrt(g * spacing));
     for (std::uint32_t material = 0; material < shared::MAX_MATERIALS; ++material) {
         const Sand& sand = settings.sand[material];

@@ -1,7 +1,7 @@
 // Wind over sand. What the wind takes off a flat bed is Bagnold's flux over the length of a hop (Bagnold 1941), times what the
 // slope does to its shear stress (Kroy, Sauermann & Herrmann 2002), where the wind sees the surface at all. A grain that it has
 // taken hops: it flies through the wind's logarithmic profile until it comes down. Then it is loose: it stays where it is, or
-// slides where the ground is steeper than its angle of repose. At the next look it is solid again where there is room.
+// slides where the ground falls off more steeply than its angle of repose. At the next look it is solid again where there is room.
 //
 // One particle stands for all the sand in its volume; the size of a grain is that of the sand.
 #ifndef MELTPOINT_SHARED_WIND_H
@@ -23,12 +23,11 @@ SHARED_CONSTANT float REATTACHMENT_SLOPE = 1.0f / 6.0f;
 
 // In spacings.
 SHARED_CONSTANT int GROUND_REACH = 3;      // texels of a spacing on each side, to which the ground's plane is fitted
-SHARED_CONSTANT float DROP_REACH = 4.0f;   // how far down a slope is looked at: at the foot of a cliff nothing slides
+SHARED_CONSTANT int FALL_REACH = 3;        // how far down a slope is looked at: less would take a single particle for a slope
+SHARED_CONSTANT float EQUAL_FALL = 1e-4f;  // slopes that differ by less are the same: the first way of them is taken
 SHARED_CONSTANT float COVERED = 0.9f;      // a particle that lies deeper than so under its column's top is covered
 SHARED_CONSTANT float BURIED = 0.5f;       // a hop ends so deep under the mean ground, as it runs into a slope
 SHARED_CONSTANT float LONGEST_PUSH = 0.1f; // a step, out of solid
-
-SHARED_CONSTANT float LEAST_DROP = 0.5f; // over DROP_REACH, of that of the steepest slope that holds
 
 SHARED_CONSTANT float LEAST_LAUNCH = 0.7f;   // speed of the slowest over that of the mean; the fastest has as much more
 SHARED_CONSTANT float FLYING_VOLUME = 0.25f; // that is seen of a particle while it hops: its sand is spread out
@@ -52,6 +51,7 @@ struct WindParams {
     float rest_support;      // of a particle on the surface of a lattice (support_of)
     float own_filling;       // V W(0)
     float rest_speed;        // m/s: what is slower is at rest
+    float slide_speed;       // m/s, at most, of loose grains on others: that of a fall by a spacing, lost as they meet
     WindMaterial of[MAX_MATERIALS];
 };
 

@@ -22,9 +22,6 @@ float top_of(ivec2 texel)
     return depth == NOTHING_SEEN ? -0.5 * view.spacing : float(DEPTH_STEPS) / view.depth_scale - fallen;
 }
 
-// A texel beyond the map's border: that at the border, or, where space is periodic, at the other one.
-int inside(int i, int count, bool is_periodic) { return is_periodic ? (i + count) % count : clamp(i, 0, count - 1); }
-
 void main()
 {
     uint i = invocation_index();
@@ -33,9 +30,8 @@ void main()
         return;
     }
     ivec2 texel = ivec2(int(i) % size.x, int(i) / size.x);
-    vec3 periodic = mix(vec3(0.0), vec3(1.0), periodic_axes());
-    bool along = dot(periodic, abs(view.right)) > 0.5;
-    bool across = dot(periodic, abs(view.up)) > 0.5;
+    bool along = is_periodic_along(view.right);
+    bool across = is_periodic_along(view.up);
     float sum = 0.0;
     vec2 rise = vec2(0.0);
     float squares = 0.0;

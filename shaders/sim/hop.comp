@@ -57,16 +57,16 @@ void main()
         v += params.dt * params.gravity;
     }
     x = wrapped(x + params.dt * v);
-    if (!hops) { // walls hold it back
-        vec3 low = mix(vec3(-NO_WALL), params.domain_min + 0.5 * d, notEqual(params.wall_mask & uvec3(1u, 4u, 16u), uvec3(0u)));
-        vec3 high = mix(vec3(NO_WALL), params.domain_max - 0.5 * d, notEqual(params.wall_mask & uvec3(2u, 8u, 32u), uvec3(0u)));
-        x = clamp(x, low, high);
-    }
+    // Walls hold back what is loose.
+    vec3 low = mix(vec3(-NO_WALL), params.domain_min + 0.5 * d, notEqual(params.wall_mask & uvec3(1u, 4u, 16u), uvec3(0u)));
+    vec3 high = mix(vec3(NO_WALL), params.domain_max - 0.5 * d, notEqual(params.wall_mask & uvec3(2u, 8u, 32u), uvec3(0u)));
+    x = hops ? x : clamp(x, low, high);
     float under_floor = 0.5 * d - height_of(x);
     x += max(under_floor, 0.0) * wind.up;
 
     Ground below = ground_at(x);
-    vec3 n = normalize(wind.up - below.slope);
+    vec3 fall = hops ? vec3(0.0) : steepest_fall(x);
+    vec3 n = normalize(wind.up - fall);
     vec2 around = solid_around(x);
     bool touches = under_floor >= 0.0 || around.y >= wind.rest_support;
     bool lands = hops && (height_of(x) < below.height - BURIED * d || (touches && dot(v, wind.up) < 0.0));
@@ -78,11 +78,12 @@ void main()
         vec3 along = v - dot(v, n) * n;
         float speed = length(along);
         v -= along * min(sand.friction * against / max(speed, 1e-30), 1.0);
-        at_rest = length(v) < wind.rest_speed && !is_steep(x, below, sand.friction);
+        v *= min(wind.slide_speed / max(length(v), 1e-30), 1.0);
+        at_rest = length(v) < wind.rest_speed && length(fall) < sand.friction;
     }
     bool crowded = around.x + wind.own_filling > 1.0;
     float push = max(min(around.y / wind.rest_support - 1.0, 1.0), crowded ? 1.0 : 0.0);
-    x += hops ? vec3(0.0) : max(push, 0.0) * LONGEST_PUSH * d * n;
+    x = hops ? x : clamp(wrapped(x + max(push, 0.0) * LONGEST_PUSH * d * n), low, high);
 
     bool inside = all(greaterThanEqual(x, params.domain_min)) && all(lessThanEqual(x, params.domain_max));
     position[i].xyz = inside ? x : position[i].xyz;

@@ -1,7 +1,7 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 // Sand at the surface: the wind takes what it is able to since the last look, counted as damage, and whose damage is complete
-// hops. Where the ground is too steep sand begins to slide. Nobody leaves from under others. Twin: engine/reference/wind.cpp.
+// hops. Where the ground falls off too steeply sand begins to slide. Nobody leaves from under others. Twin: engine/reference/wind.cpp.
 #include "include/invocation.glsl"
 #include "shared/particle_state.h"
 #include "shared/pool_changes.h"
@@ -48,7 +48,7 @@ void main()
 
     bool is_top = height_of(position[i].xyz) > below.top - COVERED * params.spacing;
     bool hops = is_top && damage[slot].x >= 1.0;
-    bool slides = is_top && !hops && is_steep(position[i].xyz, below, sand.steepest);
+    bool slides = is_top && !hops && length(steepest_fall(position[i].xyz)) > sand.steepest;
     if (hops || slides) {
         attributes[i] = freed_as(attributes[i], STATE_DUST, hops ? CAUSE_WIND : CAUSE_SLIDE);
         position[i].w = 0.0;

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <limits>
 #include <numbers>
+#include <utility>
 #include <vector>
 
 #include "gpu/transfer.h"
@@ -250,6 +251,35 @@ TEST_F(SandTest, GrainsHopAsFarAsTheyAreMeantTo)
     }
     EXPECT_NEAR(mean / expected, 1.0, 0.2); // twenty of random strength
     EXPECT_EQ(simulation.deposited(), 20u);
+}
+
+TEST_F(SandTest, TheCrestOfADuneMovesDownwind)
+{
+    sim::SimulationSettings its = settings(0.5, 3000.0);
+    its.params.domain_max = {3.0f, 1.0f, 0.4f};
+    its.params.wall_mask = 0x0f;
+    its.params.periodic_mask = 0x30;
+    ParticleSet start;
+    for (int layer = 0; layer < 9; ++layer) { // half as steep as its angle of repose
+        add_block(start, {56 - 6 * layer, 1, 8}, test_spacing * glm::vec3(4 + 3 * layer, layer, 0), 0.2f);
+    }
+    const auto crest = [](const ParticleSet& set) { // mean x of the top tenth
+        std::vector<std::pair<float, float>> places;
+        for (std::size_t i = 0; i < set.size(); ++i) {
+            if (shared::particle_state(set.attributes[i]) == shared::STATE_SOLID) {
+                places.emplace_back(-set.position[i].y, set.position[i].x);
+            }
+        }
+        std::ranges::sort(places);
+        double sum = 0.0;
+        for (std::size_t k = 0; k < places.size() / 10; ++k) {
+            sum += static_cast<double>(places[k].second);
+        }
+        return sum / static_cast<double>(places.size() / 10);
+    };
+    sim::Simulation simulation(context(), start, its);
+    simulation.advance(300); // 1.2 s
+    EXPECT_GT(crest(simulation.download()), crest(start) + 2.0 * static_cast<double>(test_spacing));
 }
 
 TEST_F(SandTest, RerunsAreBitIdenticalAndTheLedgerIsExact)
