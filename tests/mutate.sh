@@ -825,8 +825,8 @@ mutation "freezing: what is frozen counts as moving" \
     conformance_tests 'MeltingTest.WaterFreezesToAColdPlateAndNowhereElse'
 mutation "heat: the time since the last look is twice as long" \
     engine/sim/simulation.cpp \
-    'time - looked_at_);' \
-    '2.0 * (time - looked_at_));' \
+    'const double seconds = time - looked_at_;' \
+    'const double seconds = 2.0 * (time - looked_at_);' \
     conformance_tests 'MeltingTest.LooksAreTheTwins'
 mutation "emitters: births are where their nozzle is, whenever in a step they came" \
     shaders/sim/birth.comp \

@@ -281,7 +281,8 @@ TEST_F(EmissionTest, OfTwoWhoComeAtOnceToOnePlaceTheFirstIsBorn)
     ParticleSet start;
     add_jet(its, start, {0.1f, 0.4f, 0.4f}, {2.0f, 0.0f, 0.0f}, 2, 100);
     for (std::size_t i = 1; i < its.emission.points.size(); ++i) { // all four within a third of a spacing
-        its.emission.points[i] = its.emission.points[0] + glm::vec3(0.0f, 0.0f, 0.1f * test_spacing * static_cast<float>(i));
+        its.emission.points[i] =
+            its.emission.points[0] + glm::vec3(0.0f, 0.0f, 0.1f * test_spacing * static_cast<float>(i));
     }
     sim::Simulation simulation(context(), start, its);
     simulation.advance(50); // 0.1 s: four layers
@@ -301,7 +302,7 @@ TEST_F(EmissionTest, StepsAreShortEnoughForWhoIsBornInThem)
     its.params.cfl_length = 0.4f * test_spacing;
     its.params.longest_dt = 5e-3f;
     its.params.longest_move = 0.5f * its.params.support_radius;
-    ParticleSet start = lattice_state({1, 1, 1}, glm::vec3(0.5f)); // falls, slowly yet
+    ParticleSet start = lattice_state({1, 1, 1}, glm::vec3(0.5f));        // falls, slowly yet
     add_jet(its, start, {0.1f, 0.4f, 0.4f}, {20.0f, 0.0f, 0.0f}, 1, 100); // 0.1 m in the longest step
     sim::Simulation simulation(context(), start, its);
     EXPECT_NO_THROW(simulation.advance_by(0.03));
