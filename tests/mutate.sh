@@ -828,6 +828,16 @@ mutation "heat: the time since the last look is twice as long" \
     'const double seconds = time - looked_at_;' \
     'const double seconds = 2.0 * (time - looked_at_);' \
     conformance_tests 'MeltingTest.LooksAreTheTwins'
+mutation "heat: an emitter's water at its melting point is ice" \
+    engine/run/heat_settings.cpp \
+    'state == shared::STATE_FLUID || state == shared::STATE_DEAD' \
+    'state == shared::STATE_FLUID' \
+    unit_tests 'HeatSettings.*'
+mutation "heat: who is born again has the heat of a former life" \
+    shaders/sim/warm.comp \
+    'enthalpy[slot] = vec2(melting.birth_enthalpy[material], 0.0);' \
+    '' \
+    conformance_tests 'MeltingTest.LooksAreTheTwins'
 mutation "emitters: births are where their nozzle is, whenever in a step they came" \
     shaders/sim/birth.comp \
     'birth_position(position[i].xyz, velocity[i].xyz, release_time[id[i]], time)' \

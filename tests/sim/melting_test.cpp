@@ -95,6 +95,8 @@ TEST_F(MeltingTest, LooksAreTheTwins)
     add_block(start, {8, 6, 8}, glm::vec3(0.2f, 0.0f, 0.3f), shared::STATE_SOLID);
     add_block(start, {3, 4, 8}, glm::vec3(0.2f, 0.35f, 0.3f), shared::STATE_SOLID); // its shadow
     add_block(start, {3, 3, 8}, glm::vec3(0.45f, 0.3f, 0.3f), shared::STATE_FLUID); // on it
+    add_block(start, {5, 1, 1}, glm::vec3(0.0f), shared::STATE_DEAD);               // an emitter's slots
+    its.melting->params.birth_enthalpy[0] = 4e5f;
     Random random(12);
     for (std::size_t i = 0; i < start.size(); ++i) {
         const bool solid = shared::particle_state(start.attributes[i]) == shared::STATE_SOLID;
