@@ -340,7 +340,9 @@ public:
             const shared::Ledger ledger = simulation->ledger();
             statistics.emitted = ledger.emitted;
             statistics.sunk = ledger.sunk;
-            statistics.deposited = simulation->deposited();
+            if (has_hydraulic(scene_)) {
+                statistics.deposited = simulation->deposited();
+            }
             if (const auto heat = simulation->heat_statistics(particles)) {
                 statistics.enthalpy = heat->enthalpy;
                 statistics.exposed_area = heat->exposed_area;
