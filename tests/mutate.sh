@@ -872,7 +872,7 @@ mutation "emitters: births without a slot are tried for ever" \
     engine/sim/emission.cpp \
     'next_birth_[e] = std::max(next_birth_[e], past);' \
     '' \
-    conformance_tests 'EmissionTest.BirthsAndSinksAreTheTwins'
+    conformance_tests 'EmissionTest.PausesWhenItsParticlesAreOut'
 mutation "emitters: a nozzle brings a tenth too much" \
     engine/run/emission_settings.cpp \
     '(layer.area * layer.speed)' \
