@@ -863,11 +863,6 @@ mutation "emitters: periodic borders hide who is near" \
     'shifted && has_image(image, borders)' \
     'image == 0u' \
     conformance_tests 'EmissionTest.AcrossPeriodicBorders*'
-mutation "emitters: steps know nothing of who is to be born" \
-    shaders/sim/fastest.comp \
-    'is_due || !is_boundary' \
-    '!is_boundary' \
-    conformance_tests 'EmissionTest.StepsAreShortEnoughForWhoIsBornInThem'
 mutation "emitters: births without a slot are tried for ever" \
     engine/sim/emission.cpp \
     'next_birth_[e] = std::max(next_birth_[e], past);' \

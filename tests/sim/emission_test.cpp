@@ -298,7 +298,7 @@ TEST_F(EmissionTest, OfTwoWhoComeAtOnceToOnePlaceTheFirstIsBorn)
     }
 }
 
-TEST_F(EmissionTest, StepsAreShortEnoughForWhoIsBornInThem)
+TEST_F(EmissionTest, StepsAreShortEnoughForWhoHasJustBeenBorn)
 {
     sim::SimulationSettings its = settings();
     its.params.adaptive_dt = 1;
