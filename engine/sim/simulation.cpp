@@ -110,6 +110,9 @@ Simulation::Simulation(const gpu::Context& context, const ParticleSet& particles
     if (settings.options.capillarity) {
         capillarity_.emplace(context, settings.options, params_.pool_count);
     }
+    if (particles.release_time.empty() && (settings.melting || settings.hydraulic || !settings.emission.empty())) {
+        throw std::logic_error("Simulation: where particles may come or change, they have release times");
+    }
     if (!particles.release_time.empty()) {
         if (particles.release_time.size() != particles.size() || !options_.still) {
             throw std::logic_error("Simulation: release times are for each particle, and for still ones");
@@ -283,7 +286,8 @@ void Simulation::advance(std::uint32_t steps)
         commands_->begin();
         time_.set_remaining(*commands_, std::numeric_limits<float>::infinity());
         const Readback seen = submit_steps(batch, seconds_);
-        seconds_ += time_.adaptive() ? static_cast<double>(seen.time.elapsed) : batch * static_cast<double>(params_.dt);
+        seconds_ = time_.adaptive() ? seconds_ + static_cast<double>(seen.time.elapsed)
+                                    : static_cast<double>(step_) * static_cast<double>(params_.dt); // in any portions
         steps -= batch;
     }
     wanted_seconds_ = seconds_;

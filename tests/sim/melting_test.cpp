@@ -279,7 +279,7 @@ TEST_F(MeltingTest, WaterFreezesToAColdPlateAndNowhereElse)
     EXPECT_EQ(simulation.enthalpy().back(), -60.0);
 }
 
-TEST_F(MeltingTest, RerunsAreBitIdentical)
+TEST_F(MeltingTest, RerunsAreBitIdenticalInAnyPortions)
 {
     sim::SimulationSettings its = settings(shared::SOLVER_DFSPH);
     its.melting->time_scale = 2e4;
@@ -294,7 +294,10 @@ TEST_F(MeltingTest, RerunsAreBitIdentical)
     std::vector<double> heat[2];
     for (int run = 0; run < 2; ++run) {
         sim::Simulation simulation(context(), start, its);
-        simulation.advance(400);
+        for (std::uint32_t portion = 1; simulation.step() < 400; ++portion) {
+            simulation.advance(
+                run == 0 ? 400 : std::min(portion % 7 + 1, static_cast<std::uint32_t>(400 - simulation.step())));
+        }
         seen[run] = simulation.download();
         heat[run] = simulation.enthalpy();
     }
