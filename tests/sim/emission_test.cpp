@@ -264,17 +264,19 @@ TEST_F(EmissionTest, RerunsAreBitIdentical)
     add_rain(its, start, 0.001f, 150); // drops that come at the same time in the same place
     its.emission.sinks = {block({0.5f, 0.0f, 0.0f}, {1.0f, 0.2f, 1.0f})};
     ParticleSet seen[2];
+    std::uint32_t emitted = 0;
     for (ParticleSet& each : seen) {
         sim::Simulation simulation(context(), start, its);
         for (int frame = 0; frame < 10; ++frame) {
             simulation.advance_by(0.031);
         }
         each = simulation.download();
+        emitted = simulation.ledger().emitted;
     }
     EXPECT_EQ(seen[0].attributes, seen[1].attributes);
     EXPECT_EQ(seen[0].position, seen[1].position);
     EXPECT_EQ(seen[0].velocity, seen[1].velocity);
-    EXPECT_NE(count(seen[0], shared::STATE_FLUID), 400u); // something happened
+    EXPECT_GT(emitted, 100u);
 }
 
 TEST_F(EmissionTest, OfTwoWhoComeAtOnceToOnePlaceTheFirstIsBorn)
