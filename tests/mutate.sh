@@ -828,6 +828,16 @@ mutation "heat: the time since the last look is twice as long" \
     'const double seconds = time - looked_at_;' \
     'const double seconds = 2.0 * (time - looked_at_);' \
     conformance_tests 'MeltingTest.LooksAreTheTwins'
+mutation "heat: an emitter's water at its melting point is ice" \
+    engine/run/heat_settings.cpp \
+    'state == shared::STATE_FLUID || state == shared::STATE_DEAD' \
+    'state == shared::STATE_FLUID' \
+    unit_tests 'HeatSettings.*'
+mutation "heat: who is born again has the heat of a former life" \
+    shaders/sim/warm.comp \
+    'enthalpy[slot] = vec2(melting.birth_enthalpy[material], 0.0);' \
+    '' \
+    conformance_tests 'MeltingTest.LooksAreTheTwins'
 mutation "emitters: births are where their nozzle is, whenever in a step they came" \
     shaders/sim/birth.comp \
     'birth_position(position[i].xyz, velocity[i].xyz, release_time[id[i]], time)' \
@@ -853,16 +863,11 @@ mutation "emitters: periodic borders hide who is near" \
     'shifted && has_image(image, borders)' \
     'image == 0u' \
     conformance_tests 'EmissionTest.AcrossPeriodicBorders*'
-mutation "emitters: steps know nothing of who is to be born" \
-    shaders/sim/fastest.comp \
-    'is_due || !is_boundary' \
-    '!is_boundary' \
-    conformance_tests 'EmissionTest.StepsAreShortEnoughForWhoIsBornInThem'
 mutation "emitters: births without a slot are tried for ever" \
     engine/sim/emission.cpp \
     'next_birth_[e] = std::max(next_birth_[e], past);' \
     '' \
-    conformance_tests 'EmissionTest.BirthsAndSinksAreTheTwins'
+    conformance_tests 'EmissionTest.PausesWhenItsParticlesAreOut'
 mutation "emitters: a nozzle brings a tenth too much" \
     engine/run/emission_settings.cpp \
     '(layer.area * layer.speed)' \
@@ -1271,16 +1276,51 @@ mutation "wind: it takes 10 % more than its flux" \
     'its.pick_up = static_cast<float>(bagnold' \
     'its.pick_up = 1.1f * static_cast<float>(bagnold' \
     conformance_tests 'SandTest.AFlatBedLosesItsFluxOverTheLengthOfAHop'
-mutation "wind: sand on level ground slides" \
-    shaders/include/ground.glsl \
-    'vec3 steepest = vec3(0.0);' \
-    'vec3 steepest = view.right;' \
-    conformance_tests 'SandTest.NoSandLeavesShelteredPlaces'
-mutation "wind: all who rest find room at once" \
-    shaders/sim/land.comp \
-    'id[range.x] < its_id' \
-    'id[range.x] < 0u' \
+mutation "wind: steep sand stays where it is" \
+    shaders/sim/slide.comp \
+    'length(its.slope) > sand.steepest' \
+    'false' \
+    conformance_tests 'SandTest.HeapsStandAtTheirAngleOfRepose'
+mutation "wind: towers of sand stand" \
+    shaders/sim/slide.comp \
+    'slope > STEEPEST_STEP ||' \
+    '' \
     conformance_tests 'SandTest.StepsAndLooksAreTheTwins'
+mutation "wind: a column's new top lies where the old one was" \
+    shaders/include/columns.glsl \
+    '(loses_top(texel) ? 0.0 : params.spacing)' \
+    '0.0' \
+    conformance_tests 'SandTest.StepsAndLooksAreTheTwins'
+mutation "wind: a column's new top hangs over where the old one was" \
+    shaders/include/columns.glsl \
+    '(loses_top(texel) ? 0.0 : params.spacing)' \
+    'params.spacing' \
+    conformance_tests 'SandTest.StepsAndLooksAreTheTwins'
+mutation "wind: all who have come down find room at once" \
+    shaders/sim/land.comp \
+    'if (claim[index_of(here)] != id[i]) {' \
+    'if (claim[index_of(here)] == WAY_NONE) {' \
+    conformance_tests 'SandTest.StepsAndLooksAreTheTwins'
+mutation "wind: all who slide to a column find room at once" \
+    shaders/sim/slide_apply.comp \
+    '} else if (claim[index_of(there)] == id[i]) {' \
+    '} else {' \
+    conformance_tests 'SandTest.StepsAndLooksAreTheTwins:SandTest.HeapsStandAtTheirAngleOfRepose'
+mutation "wind: grains climb walls" \
+    shaders/sim/hop.comp \
+    'if (blocked) {' \
+    'if (false) {' \
+    conformance_tests 'SandTest.StepsAndLooksAreTheTwins'
+mutation "wind: what comes down on the floor never rests" \
+    shaders/sim/hop.comp \
+    'height_of(next) <= lowest' \
+    'height_of(next) < lowest' \
+    conformance_tests 'SandTest.HeapsStandAtTheirAngleOfRepose'
+mutation "wind: nothing moves at first" \
+    engine/sim/wind.cpp \
+    'shared::random_share(id) : 0.0f' \
+    '0.0f : 0.0f' \
+    conformance_tests 'SandTest.TheWindHasBeenAtWorkBeforeTheStart'
 mutation "wind: the ground's slope is that of one axis" \
     shaders/sim/ground.comp \
     'top * vec2(x, y)' \

@@ -107,6 +107,8 @@ std::string make_gallery(const Workplace& workplace)
           {{0, "melt_teapot_00.png", "a teapot of ice in the sun"},
            {22, "melt_teapot_22.png", "what is thin melts first"},
            {89, "melt_teapot_89.png", "and most of it is water"}}},
+         {"jet_on_block", {}, {{50, "jet_on_block_50.png", "a jet has hollowed out layered stone"}}},
+         {"river_bed", {}, {{119, "river_bed_119.png", "a stream has eaten into its banks"}}},
          {"teapot_drop", {}, {{31, "teapot_drop_31.png", "a teapot of syrup has hit the floor"}}},
          {"dam_break", {"render.color=speed"}, {{27, "dam_break_speed.png", "a dam break colored by speed"}}},
          {"dissolve", {}, {{32, "dissolve_32.png", "a rabbit dissolves into a thick fluid"}}},

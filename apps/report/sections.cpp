@@ -168,8 +168,9 @@ std::span<const SectionMaker> section_makers()
             {"block", "The benchmark's block", "tile sizes beside a plain C++ loop", make_block},
         };
         for (const validation::Case& one : validation::cases()) {
-            all.push_back({one.name, one.title, "a case of meltpoint validate",
-                           [&one](const Workplace& workplace) { return make_validation(workplace, one); }});
+            all.push_back({one.name, one.title, "a case of meltpoint validate", [&one](const Workplace& workplace) {
+                               return make_validation(workplace, one);
+                           }});
         }
         return all;
     }();

@@ -32,8 +32,8 @@ std::string make_validation(const Workplace& workplace, const validation::Case& 
         write_file_atomically(workplace.folder / figure.file, std::as_bytes(std::span(svg)));
         text += fmt::format("![{}]({}{})\n\n", figure.plot.title, workplace.link, figure.file);
     }
-    return text + table({"measured", "value", "range"}, rows) +
-           fmt::format("\n`meltpoint validate {}`. ", one.name) + provenance(workplace);
+    return text + table({"measured", "value", "range"}, rows) + fmt::format("\n`meltpoint validate {}`. ", one.name) +
+           provenance(workplace);
 }
 
 } // namespace meltpoint::report

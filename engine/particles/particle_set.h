@@ -11,8 +11,8 @@
 namespace meltpoint {
 
 /// The particles on the host, one array an attribute: the one form that the CPU reference, exports and checkpoints
-/// share. SI units. All arrays but the last have the same length. In a set that comes from the device or from sampling, particle i
-/// has id i.
+/// share. SI units. All arrays but the last have the same length. In a set that comes from the device or from sampling,
+/// particle i has id i.
 struct ParticleSet {
     std::vector<std::uint32_t> id;
     std::vector<std::uint32_t> attributes; ///< shared::pack_attributes(state, material) and flags
@@ -25,7 +25,8 @@ struct ParticleSet {
     std::vector<float> pressure; ///< Pa
 
     /// s since the start, when a front reaches a solid particle and it turns into fluid; infinite where none does.
-    /// Empty where there are none: the one array that may be. It is not read back from the device.
+    /// Empty where no particle comes or changes, by whatever cause: the one array that may be. It is not read back from
+    /// the device, which notes in it when particles were freed or born.
     std::vector<float> release_time;
 
     [[nodiscard]] std::size_t size() const { return position.size(); } ///< particles

@@ -32,7 +32,8 @@ struct ScalarSum {
 };
 
 /// What a solve is to take away: of the divergence solve dt drho/dt / rho0, of the density solve rho/rho0 - 1 plus
-/// that, where it is positive times shared::density_share, with the velocities given (m/s). Twin of the sums of sim/dfsph_residual.comp.
+/// that, where it is positive times shared::density_share, with the velocities given (m/s). Twin of the sums of
+/// sim/dfsph_residual.comp.
 [[nodiscard]] ScalarSum excess(const Settings& settings, const State& state, const Neighbors& neighbors,
                                const std::vector<glm::dvec3>& velocity, std::uint32_t solve, std::size_t i);
 
@@ -50,12 +51,13 @@ struct ScalarSum {
 /// By shared::SOLVE_*, one number a particle in id order: what first_impulse starts from.
 using WarmStarts = std::array<std::vector<double>, shared::SOLVES>;
 
-/// What the impulses of both solves of a step come to as a pressure, Pa; 0 of boundary particles. Twin of sim/drift.comp.
+/// What the impulses of both solves of a step come to as a pressure, Pa; 0 of boundary particles. Twin of
+/// sim/drift.comp.
 [[nodiscard]] double solved_pressure(const Settings& settings, const State& state, const WarmStarts& warm_starts,
                                      std::size_t i);
 
-/// A whole solve: changes the state's velocities, and leaves in warm_start the impulses that have changed them. Its error
-/// is the mean of the positive excesses of fluid particles. Ends as sim/dfsph_residual.comp.
+/// A whole solve: changes the state's velocities, and leaves in warm_start the impulses that have changed them. Its
+/// error is the mean of the positive excesses of fluid particles. Ends as sim/dfsph_residual.comp.
 SolveResult solve(const Settings& settings, State& state, const Neighbors& neighbors, std::uint32_t solve,
                   std::vector<double>& warm_start);
 

@@ -45,7 +45,7 @@ void warm(const Settings& settings, const shared::HeatParams& heat, const shared
     for (std::size_t i = 0; i < state.size(); ++i) {
         const std::uint32_t material = shared::particle_material(state.attributes[i]);
         double& its_enthalpy = enthalpy[state.id[i]];
-        if ((state.attributes[i] & shared::FLAG_DUE) != 0) {
+        if (shared::particle_state(state.attributes[i]) == shared::STATE_DEAD) {
             its_enthalpy = static_cast<double>(melting.birth_enthalpy[material]);
         }
         const double area = exposure[i].w;

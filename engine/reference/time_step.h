@@ -11,8 +11,9 @@ namespace meltpoint::reference {
 
 /// How long a step may be, and is.
 struct StepLength {
-    double limit = 0.0; ///< s: by the CFL bound, params.longest_dt, params.shortest_dt and what the step before might have been
-    double dt = 0.0;    ///< s: no longer, and so that equal steps end where `remaining` does
+    double limit =
+        0.0; ///< s: by the CFL bound, params.longest_dt, params.shortest_dt and what the step before might have been
+    double dt = 0.0; ///< s: no longer, and so that equal steps end where `remaining` does
 };
 /// Twin of sim/time_step.comp: the next step. limit_before and remaining in seconds.
 [[nodiscard]] StepLength next_step(const shared::SphParams& params, double fastest, double limit_before,

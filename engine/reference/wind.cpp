@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "particles/sph_kernel.h"
 #include "reference/walls.h"
 
 namespace meltpoint::reference {
@@ -25,10 +24,14 @@ glm::ivec2 texel_at(const SandScene& scene, const glm::dvec3& x)
     return glm::clamp(glm::ivec2(glm::floor(place)), glm::ivec2(0), size - 1);
 }
 
-const Ground& ground_at(const SandScene& scene, const glm::dvec3& x)
+std::size_t index_of(const SandScene& scene, const glm::ivec2& texel)
 {
-    const glm::ivec2 texel = texel_at(scene, x);
-    return scene.ground[static_cast<std::size_t>(texel.y) * scene.view.width + static_cast<std::size_t>(texel.x)];
+    return static_cast<std::size_t>(texel.y) * scene.view.width + static_cast<std::size_t>(texel.x);
+}
+
+const Ground& ground_at(const SandScene& scene, const glm::ivec2& texel)
+{
+    return scene.ground[index_of(scene, texel)];
 }
 
 /// Along a unit vector that is an axis or its opposite.
@@ -48,80 +51,79 @@ int inside(int i, int count, bool is_periodic)
     return is_periodic ? (i + count) % count : std::clamp(i, 0, count - 1);
 }
 
-/// The gradient of the ground along the steepest of eight ways down from x; zero where all lead up.
-glm::dvec3 steepest_fall(const Settings& settings, const SandScene& scene, const glm::dvec3& x)
+/// One of the eight around a texel, k % 3 - 1, k / 3 - 1 away: itself where that is beyond a border.
+glm::ivec2 neighbor_of(const Settings& settings, const SandScene& scene, const glm::ivec2& texel, std::uint32_t k)
 {
     const shared::VisibilityParams& view = scene.view;
-    const auto width = static_cast<int>(view.width);
-    const glm::ivec2 here = texel_at(scene, x);
-    glm::dvec3 steepest(0.0);
-    for (int k = 0; k < 9; ++k) {
-        if (k == 4) {
-            continue; // no way at all
-        }
-        const glm::ivec2 way = shared::FALL_REACH * glm::ivec2(k % 3 - 1, k / 3 - 1);
-        const int there_x = inside(here.x + way.x, width, is_periodic_along(settings, view.right));
-        const int there_y = inside(here.y + way.y, static_cast<int>(view.height), is_periodic_along(settings, view.up));
-        const double drop =
-            ground_at(scene, x).top - scene.ground[static_cast<std::size_t>(there_y * width + there_x)].top;
-        const glm::dvec3 along =
-            static_cast<double>(way.x) * glm::dvec3(view.right) + static_cast<double>(way.y) * glm::dvec3(view.up);
-        const double slope = drop / (glm::length(along) * static_cast<double>(view.texel));
-        if (slope > glm::length(steepest) + static_cast<double>(shared::EQUAL_FALL)) {
-            steepest = -slope * glm::normalize(along);
-        }
-    }
-    return steepest;
+    const glm::ivec2 there = texel + glm::ivec2(k % 3, k / 3) - 1;
+    return {inside(there.x, static_cast<int>(view.width), is_periodic_along(settings, view.right)),
+            inside(there.y, static_cast<int>(view.height), is_periodic_along(settings, view.up))};
 }
 
-/// Of a position and all its images, the sum of body(offset from particle j to it, the image's reflection).
-template <class Body>
-void for_each_image(const Settings& settings, const glm::dvec3& x, const Body& body)
+/// Where a particle in the middle of a column is, so many m above the floor.
+glm::dvec3 place_in_column(const Settings& settings, const SandScene& scene, const glm::ivec2& texel, double height)
 {
     const shared::SphParams& params = settings.params;
-    for (int side = 0; side < 27; ++side) {
-        Reflection reflection = 0;
-        bool is_there = true;
-        for (int axis = 0; axis < 3; ++axis) {
-            const int which = axis == 0 ? side % 3 : (axis == 1 ? side / 3 % 3 : side / 9);
-            if (which == 0) {
-                continue;
-            }
-            const std::uint32_t border = 1u << (2 * axis + which - 1);
-            const bool is_periodic = (params.periodic_mask & border) != 0;
-            is_there = is_there && (((params.wall_mask | params.periodic_mask) & border) != 0);
-            reflection |= border | (is_periodic ? 1u << (6 + axis) : 0u);
-        }
-        if (is_there) {
-            body(reflect_position(params, reflection, x), reflection);
+    const shared::VisibilityParams& view = scene.view;
+    const glm::dvec2 middle = (glm::dvec2(texel) + 0.5) * static_cast<double>(view.texel);
+    glm::dvec3 x = glm::dvec3(view.origin) + middle.x * glm::dvec3(view.right) + middle.y * glm::dvec3(view.up);
+    x += (height - height_of(scene.wind, x)) * glm::dvec3(scene.wind.up);
+    const glm::dvec3 low(params.domain_min);
+    const glm::dvec3 high(params.domain_max);
+    const double off_walls = 0.5 * static_cast<double>(params.spacing);
+    return glm::clamp(x, glm::min(low + off_walls, 0.5 * (low + high)), glm::max(high - off_walls, 0.5 * (low + high)));
+}
+
+/// Of what is in the columns at a look.
+struct Columns {
+    std::vector<std::uint32_t> top_id; ///< of the uppermost particle
+    std::vector<std::uint32_t> way;    ///< shared::WAY_*
+    std::vector<std::uint32_t> claim;  ///< who comes to lie there
+};
+
+glm::ivec2 end_of_way(const Settings& settings, const SandScene& scene, const glm::ivec2& texel, std::uint32_t way)
+{
+    return neighbor_of(settings, scene, texel, way & 15u);
+}
+
+/// m above the floor, of who comes to lie on a column: where its top is, if that is about to leave it.
+double next_height(const Settings& settings, const SandScene& scene, const Columns& columns, const glm::ivec2& texel)
+{
+    const std::size_t here = index_of(scene, texel);
+    const std::uint32_t way = columns.way[here];
+    bool leaves = way >= shared::WAY_TAKEN;
+    if (way < shared::WAY_TAKEN && way != shared::WAY_NONE) {
+        leaves = columns.claim[index_of(scene, end_of_way(settings, scene, texel, way))] == columns.top_id[here];
+    }
+    return ground_at(scene, texel).top + (leaves ? 0.0 : static_cast<double>(settings.params.spacing));
+}
+
+/// The way of a column's top of sand, shared::WAY_*.
+std::uint32_t way_down(const Settings& settings, const SandScene& scene, const glm::ivec2& here, std::uint32_t id,
+                       const shared::WindMaterial& sand)
+{
+    const Ground& its = ground_at(scene, here);
+    const bool on_steep_ground = glm::length(its.slope) > static_cast<double>(sand.steepest);
+    std::uint32_t way = shared::WAY_NONE;
+    double steepest = 0.0;
+    const std::uint32_t first = id * 2654435769u >> 29u;
+    for (std::uint32_t turn = 0; turn < 8; ++turn) {
+        std::uint32_t k = (first + turn) % 8;
+        k += k >= shared::WAY_NONE ? 1 : 0;
+        const glm::dvec2 along = glm::dvec2(k % 3, k / 3) - 1.0;
+        const double step = (its.top - ground_at(scene, neighbor_of(settings, scene, here, k)).top) /
+                            static_cast<double>(settings.params.spacing);
+        const double slope = step / glm::length(along);
+        const bool downhill =
+            glm::dot(its.slope, along.x * glm::dvec3(scene.view.right) + along.y * glm::dvec3(scene.view.up)) < 0.0;
+        const bool slides = slope > static_cast<double>(shared::STEEPEST_STEP) ||
+                            (on_steep_ground && downhill && step > static_cast<double>(shared::LEAST_STEP));
+        if (slides && slope > steepest + static_cast<double>(shared::EQUAL_STEP)) {
+            steepest = slope;
+            way = k + (step > static_cast<double>(shared::HIGHEST_SLIDE) ? shared::WAY_FALLS : 0);
         }
     }
-}
-
-double filling_of(const Settings& settings, double r)
-{
-    const double q = r / static_cast<double>(settings.params.support_radius);
-    return static_cast<double>(settings.params.lattice_volume) * static_cast<double>(settings.params.density_scale) *
-           density_shape(settings.kernel, q);
-}
-
-/// Half a spacing off them at least.
-glm::dvec3 held_by_walls(const shared::SphParams& params, glm::dvec3 x)
-{
-    const double distance = 0.5 * static_cast<double>(params.spacing);
-    for (int border = 0; border < 6; ++border) {
-        if ((params.wall_mask >> border & 1u) != 0) {
-            const int axis = border / 2;
-            x[axis] = border % 2 == 0 ? std::max(x[axis], static_cast<double>(params.domain_min[axis]) + distance)
-                                      : std::min(x[axis], static_cast<double>(params.domain_max[axis]) - distance);
-        }
-    }
-    return x;
-}
-
-bool is_sand(std::uint32_t attributes)
-{
-    return shared::particle_state(attributes) == shared::STATE_DUST && !shared::is_drifting(attributes);
+    return way;
 }
 
 glm::dvec3 air_velocity(const shared::WindParams& wind, double above_ground)
@@ -169,62 +171,106 @@ std::vector<Ground> ground(const Settings& settings, const shared::VisibilityPar
     return planes;
 }
 
-std::size_t erode_by_wind(const Settings& settings, const SandScene& scene, State& state, SandState& sand,
-                          std::span<const glm::dvec4> exposure, std::span<const double> visibility, double seconds)
+SandChanges look_at_sand(const Settings& settings, const SandScene& scene, State& state, SandState& sand,
+                         std::span<const glm::dvec4> exposure, std::span<const double> visibility, double seconds,
+                         bool slides)
 {
     const shared::WindParams& wind = scene.wind;
-    std::size_t freed = 0;
+    const std::size_t texels = scene.ground.size();
+    constexpr std::uint32_t nobody = 0xffffffffu;
+    Columns columns{.top_id = std::vector(texels, nobody),
+                    .way = std::vector(texels, shared::WAY_NONE),
+                    .claim = std::vector(texels, nobody)};
+    const auto is_solid = [&](std::size_t i) {
+        return shared::particle_state(state.attributes[i]) == shared::STATE_SOLID;
+    };
+    const auto material = [&](std::size_t i) -> const shared::WindMaterial& {
+        return wind.of[shared::particle_material(state.attributes[i])];
+    };
+    const auto here = [&](std::size_t i) {
+        return texel_at(scene, state.position[i]);
+    };
+    // Who is on top.
     for (std::size_t i = 0; i < state.size(); ++i) {
-        const shared::WindMaterial& its = wind.of[shared::particle_material(state.attributes[i])];
-        if (shared::particle_state(state.attributes[i]) != shared::STATE_SOLID || its.erodes == 0) {
+        const std::size_t texel = index_of(scene, here(i));
+        const double depth = ground_at(scene, here(i)).top - height_of(wind, state.position[i]);
+        if (is_solid(i) && std::abs(depth) * static_cast<double>(scene.view.depth_scale) < 1.5) {
+            columns.top_id[texel] = std::min(columns.top_id[texel], state.id[i]);
+        }
+    }
+    // The wind takes.
+    SandChanges changes;
+    for (std::size_t i = 0; i < state.size(); ++i) {
+        const shared::WindMaterial& its = material(i);
+        if (!is_solid(i) || its.erodes == 0) {
             continue;
         }
-        const Ground& below = ground_at(scene, state.position[i]);
-        const double along = glm::dot(below.slope, glm::dvec3(wind.direction));
+        const double along = glm::dot(ground_at(scene, here(i)).slope, glm::dvec3(wind.direction));
         const double stress = static_cast<double>(shared::stress_on_slope(static_cast<float>(along)));
         const bool faces_up = glm::dot(glm::dvec3(exposure[i]), glm::dvec3(wind.up)) > 0.0;
         const double share = stress > static_cast<double>(its.threshold) && faces_up ? std::pow(stress, 1.5) : 0.0;
         double& damage = sand.damage[state.id[i]];
         damage += static_cast<double>(its.pick_up) * share * visibility[i] * exposure[i].w * seconds / state.mass[i];
-        const bool is_top =
-            height_of(wind, state.position[i]) >
-            below.top - static_cast<double>(shared::COVERED) * static_cast<double>(settings.params.spacing);
-        const bool hops = is_top && damage >= 1.0;
-        if (hops) {
+        if (damage >= 1.0 && columns.top_id[index_of(scene, here(i))] == state.id[i]) {
             state.attributes[i] = shared::freed_as(state.attributes[i], shared::STATE_DUST, shared::CAUSE_WIND);
             state.velocity[i] = static_cast<double>(its.launch_speed) *
                                 static_cast<double>(shared::launch_share(state.id[i])) * glm::dvec3(wind.up);
+            state.weight[i] = 0.0;
             damage = 0.0;
-        } else if (is_top &&
-                   glm::length(steepest_fall(settings, scene, state.position[i])) > static_cast<double>(its.steepest)) {
-            state.attributes[i] = shared::freed_as(state.attributes[i], shared::STATE_DUST, shared::CAUSE_SLIDE);
+            columns.way[index_of(scene, here(i))] = shared::WAY_TAKEN;
+            ++changes.picked_up;
+        }
+    }
+    // Who is to be where: what has come down, and what slides.
+    const auto has_come_down = [&](std::size_t i) {
+        return shared::is_flying_sand(state.attributes[i]) && sand.rests[state.id[i]] != 0;
+    };
+    const auto claim = [&](const glm::ivec2& texel, std::uint32_t id) {
+        std::uint32_t& smallest = columns.claim[index_of(scene, texel)];
+        smallest = std::min(smallest, id);
+    };
+    for (std::size_t i = 0; i < state.size(); ++i) {
+        if (has_come_down(i)) {
+            claim(here(i), state.id[i]);
+        }
+        const std::size_t texel = index_of(scene, here(i));
+        if (slides && is_solid(i) && material(i).erodes != 0 && columns.top_id[texel] == state.id[i]) {
+            columns.way[texel] = way_down(settings, scene, here(i), state.id[i], material(i));
+            if (columns.way[texel] < shared::WAY_TAKEN && columns.way[texel] != shared::WAY_NONE) {
+                claim(end_of_way(settings, scene, here(i), columns.way[texel]), state.id[i]);
+            }
+        }
+    }
+    // They are there.
+    const State before = state;
+    for (std::size_t i = 0; i < state.size(); ++i) {
+        const glm::ivec2 texel = texel_at(scene, before.position[i]);
+        const std::uint32_t id = state.id[i];
+        if (has_come_down(i) && columns.claim[index_of(scene, texel)] == id) {
+            state.position[i] = place_in_column(settings, scene, texel, next_height(settings, scene, columns, texel));
+            state.attributes[i] = shared::with_state(state.attributes[i], shared::STATE_SOLID);
             state.velocity[i] = glm::dvec3(0.0);
-        } else {
+            state.weight[i] = 1.0;
+            sand.rests[id] = 0;
+            ++changes.landed;
             continue;
         }
-        state.weight[i] = 0.0;
-        ++freed;
-    }
-    return freed;
-}
-
-glm::dvec2 solid_around(const Settings& settings, const shared::WindParams& wind, const State& state,
-                        const glm::dvec3& x)
-{
-    glm::dvec2 sum(0.0);
-    for_each_image(settings, x, [&](const glm::dvec3& image, Reflection reflection) {
-        const glm::dvec3 up = reflect_velocity(reflection, glm::dvec3(wind.up));
-        for (std::size_t j = 0; j < state.size(); ++j) {
-            if (!shared::is_still(state.attributes[j]) || shared::is_gone(state.attributes[j])) {
-                continue;
-            }
-            const glm::dvec3 offset = image - state.position[j];
-            const double r = glm::length(offset);
-            const double filling = state.weight[j] * filling_of(settings, r);
-            sum += filling * glm::dvec2(1.0, r > 0.0 ? std::max(glm::dot(offset, up), 0.0) / r : 0.0);
+        const std::uint32_t way = columns.way[index_of(scene, texel)];
+        if (!is_solid(i) || columns.top_id[index_of(scene, texel)] != id || way == shared::WAY_NONE) {
+            continue;
         }
-    });
-    return sum;
+        const glm::ivec2 there = end_of_way(settings, scene, texel, way);
+        if (way >= shared::WAY_FALLS) {
+            state.position[i] = place_in_column(settings, scene, there, ground_at(scene, texel).top);
+            state.attributes[i] = shared::freed_as(state.attributes[i], shared::STATE_DUST, shared::CAUSE_WIND);
+            state.weight[i] = 0.0;
+            ++changes.fell;
+        } else if (columns.claim[index_of(scene, there)] == id) {
+            state.position[i] = place_in_column(settings, scene, there, next_height(settings, scene, columns, there));
+            ++changes.slid;
+        }
+    }
+    return changes;
 }
 
 void move_sand(const Settings& settings, const SandScene& scene, State& state, SandState& sand)
@@ -234,98 +280,39 @@ void move_sand(const Settings& settings, const SandScene& scene, State& state, S
     const double dt = static_cast<double>(params.dt);
     const double d = static_cast<double>(params.spacing);
     const glm::dvec3 up(wind.up);
-    const glm::dvec3 gravity(params.gravity);
-    const double rest_support = static_cast<double>(wind.rest_support);
+    const auto top_at = [&](const glm::dvec3& x) {
+        return ground_at(scene, texel_at(scene, x)).top;
+    };
     for (std::size_t i = 0; i < state.size(); ++i) {
-        if (!is_sand(state.attributes[i])) {
+        if (!shared::is_flying_sand(state.attributes[i]) || sand.rests[state.id[i]] != 0) {
             continue;
         }
         const shared::WindMaterial& its = wind.of[shared::particle_material(state.attributes[i])];
-        const bool hops = shared::cause_of(state.attributes[i]) == shared::CAUSE_WIND;
-        glm::dvec3 x = state.position[i];
+        const glm::dvec3 x = state.position[i];
         glm::dvec3 v = state.velocity[i];
-        if (hops) {
-            const double response = static_cast<double>(its.response_time);
-            const double above = height_of(wind, x) - ground_at(scene, x).height - 0.5 * d;
-            v += -std::expm1(-dt / response) * (air_velocity(wind, above) + response * gravity - v);
-        } else {
-            v += dt * gravity;
-        }
-        x = wrap_position(params, x + dt * v);
-        x = hops ? x : held_by_walls(params, x);
-        const double under_floor = 0.5 * d - height_of(wind, x);
-        x += std::max(under_floor, 0.0) * up;
+        const double response = static_cast<double>(its.response_time);
+        const double above = height_of(wind, x) - ground_at(scene, texel_at(scene, x)).height - 0.5 * d;
+        v += -std::expm1(-dt / response) * (air_velocity(wind, above) + response * glm::dvec3(params.gravity) - v);
 
-        const Ground& below = ground_at(scene, x);
-        const glm::dvec3 fall = steepest_fall(settings, scene, x);
-        const glm::dvec3 n = glm::normalize(up - fall);
-        const glm::dvec2 around = solid_around(settings, wind, state, x);
-        const bool touches = under_floor >= 0.0 || around.y >= rest_support;
-        const bool runs_into_ground = height_of(wind, x) < below.height - static_cast<double>(shared::BURIED) * d;
-        const bool lands = hops && (runs_into_ground || (touches && glm::dot(v, up) < 0.0));
-        v = lands ? glm::dvec3(0.0) : v;
-        bool at_rest = false;
-        if (!hops && touches) {
-            const double against = std::max(-glm::dot(v, n), 0.0);
-            v += against * n;
-            const glm::dvec3 along = v - glm::dot(v, n) * n;
-            const double speed = glm::length(along);
-            v -= speed > 0.0 ? along * std::min(static_cast<double>(its.friction) * against / speed, 1.0) : along;
-            v *= std::min(static_cast<double>(wind.slide_speed) / std::max(glm::length(v), 1e-30), 1.0);
-            at_rest = glm::length(v) < static_cast<double>(wind.rest_speed) &&
-                      glm::length(fall) < static_cast<double>(its.friction);
+        glm::dvec3 next = wrap_position(params, x + dt * v);
+        next += std::max(0.5 * d - height_of(wind, next), 0.0) * up;
+        const bool inside = glm::all(glm::greaterThanEqual(next, glm::dvec3(params.domain_min))) &&
+                            glm::all(glm::lessThanEqual(next, glm::dvec3(params.domain_max)));
+        if (top_at(next) > height_of(wind, next) + static_cast<double>(shared::HIGHEST_CLIMB) * d) {
+            v = glm::dot(v, up) * up;
+            next = x + dt * v;
         }
-        if (!hops) {
-            const bool crowded = around.x + static_cast<double>(wind.own_filling) > 1.0;
-            const double push = crowded ? 1.0 : std::clamp(around.y / rest_support - 1.0, 0.0, 1.0);
-            x = held_by_walls(params,
-                              wrap_position(params, x + push * static_cast<double>(shared::LONGEST_PUSH) * d * n));
-        }
-        const bool inside = glm::all(glm::greaterThanEqual(x, glm::dvec3(params.domain_min))) &&
-                            glm::all(glm::lessThanEqual(x, glm::dvec3(params.domain_max)));
-        state.position[i] = inside ? x : state.position[i];
-        state.velocity[i] = v;
-        state.density[i] = hops && !lands ? static_cast<double>(shared::FLYING_VOLUME) : 1.0;
-        sand.rests[state.id[i]] = at_rest && inside ? 1 : 0;
-        if (lands) {
-            state.attributes[i] = shared::freed_as(state.attributes[i], shared::STATE_DUST, shared::CAUSE_SLIDE);
-        }
+        const double lowest = top_at(next) + d;
+        const bool lands = inside && height_of(wind, next) <= lowest && glm::dot(v, up) <= 0.0;
+        next += lands ? (lowest - height_of(wind, next)) * up : glm::dvec3(0.0);
+        state.position[i] = inside ? next : x;
+        state.velocity[i] = lands ? glm::dvec3(0.0) : v;
+        state.density[i] = lands ? 1.0 : static_cast<double>(shared::FLYING_VOLUME);
+        sand.rests[state.id[i]] = lands ? 1 : 0;
         if (!inside) {
             state.attributes[i] = shared::with_state(state.attributes[i], shared::STATE_DEAD);
         }
     }
-}
-
-std::size_t land_sand(const Settings& settings, const shared::WindParams& wind, State& state, SandState& sand)
-{
-    const auto rests = [&](std::size_t i) {
-        return is_sand(state.attributes[i]) && shared::cause_of(state.attributes[i]) == shared::CAUSE_SLIDE &&
-               sand.rests[state.id[i]] != 0;
-    };
-    std::vector<std::size_t> landed;
-    for (std::size_t i = 0; i < state.size(); ++i) {
-        if (!rests(i)) {
-            continue;
-        }
-        double filling = solid_around(settings, wind, state, state.position[i]).x;
-        for_each_image(settings, state.position[i], [&](const glm::dvec3& image, Reflection) {
-            for (std::size_t j = 0; j < state.size(); ++j) {
-                if (state.id[j] < state.id[i] && rests(j)) {
-                    filling += filling_of(settings, glm::distance(image, state.position[j]));
-                }
-            }
-        });
-        if (filling + static_cast<double>(wind.own_filling) <= 1.0) {
-            landed.push_back(i);
-        }
-    }
-    for (const std::size_t i : landed) {
-        sand.rests[state.id[i]] = 0;
-        state.attributes[i] = shared::with_state(state.attributes[i], shared::STATE_SOLID);
-        state.weight[i] = 1.0;
-        state.velocity[i] = glm::dvec3(0.0);
-    }
-    return landed.size();
 }
 
 } // namespace meltpoint::reference

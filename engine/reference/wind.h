@@ -27,7 +27,7 @@ struct Ground {
 /// What of sand is kept by id.
 struct SandState {
     std::vector<double> damage;       ///< 1: about to hop
-    std::vector<std::uint32_t> rests; ///< 1: loose and at rest
+    std::vector<std::uint32_t> rests; ///< 1: has come down, and waits to be solid
 };
 
 /// What the passes of wind read besides the particles.
@@ -37,21 +37,22 @@ struct SandScene {
     std::span<const Ground> ground;
 };
 
-/// Twin of sim/wind_erode.comp: what the wind takes in `seconds` of erosion, and what begins to slide. exposure
-/// (reference/exposure.h) and visibility (reference/visibility.h, for the wind) are of each particle. How many are
-/// freed.
-std::size_t erode_by_wind(const Settings& settings, const SandScene& scene, State& state, SandState& sand,
-                          std::span<const glm::dvec4> exposure, std::span<const double> visibility, double seconds);
+/// How many particles a look at sand has changed.
+struct SandChanges {
+    std::size_t picked_up = 0; ///< by the wind
+    std::size_t fell = 0;      ///< off a slope
+    std::size_t slid = 0;      ///< by a spacing
+    std::size_t landed = 0;
+};
 
-/// Twin of sim/hop.comp: sand that hops or slides takes a step of params.dt.
+/// Twin of a look: sim/column_top.comp, wind_erode.comp, alight.comp, slide.comp, slide_apply.comp (these two where it
+/// `slides`) and land.comp. The wind blows for `seconds` of erosion; exposure (reference/exposure.h) and visibility
+/// (reference/visibility.h, for the wind) are of each particle.
+SandChanges look_at_sand(const Settings& settings, const SandScene& scene, State& state, SandState& sand,
+                         std::span<const glm::dvec4> exposure, std::span<const double> visibility, double seconds,
+                         bool slides);
+
+/// Twin of sim/hop.comp: sand in the air takes a step of params.dt.
 void move_sand(const Settings& settings, const SandScene& scene, State& state, SandState& sand);
-
-/// Twin of sim/land.comp and sim/land_apply.comp: loose sand at rest is solid where there is room. How many that are.
-std::size_t land_sand(const Settings& settings, const shared::WindParams& wind, State& state, SandState& sand);
-
-/// The part of space that still particles and their images fill at a place, and in y what of it pushes up
-/// (include/solid_around.glsl).
-[[nodiscard]] glm::dvec2 solid_around(const Settings& settings, const shared::WindParams& wind, const State& state,
-                                      const glm::dvec3& x);
 
 } // namespace meltpoint::reference

@@ -45,7 +45,8 @@ std::optional<sim::MeltingSettings> melting_settings(const Scene& scene, const P
         const Material& material = materials[number];
         const double above =
             static_cast<double>(material.temperature) - static_cast<double>(material.thermal.melting_point);
-        const bool is_fluid = shared::particle_state(particles.attributes[i]) == shared::STATE_FLUID;
+        const std::uint32_t state = shared::particle_state(particles.attributes[i]);
+        const bool is_fluid = state == shared::STATE_FLUID || state == shared::STATE_DEAD; // who will be fluid
         // Of colliders, too: they keep their temperature, whatever their enthalpy is called.
         settings.enthalpy[i] = is_fluid || above > 0.0
                                    ? static_cast<double>(material.thermal.latent_heat) +

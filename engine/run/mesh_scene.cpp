@@ -144,12 +144,58 @@ void set_vanish(Scene& scene, const MeshShape& mesh, const Model& model, double 
     scene.solids.push_back(solid);
 }
 
+/// Soft stone that a jet of water wears away.
+void set_wash(Scene& scene, const MeshShape& mesh, const Model& model, double similarity)
+{
+    const float largest = largest_of(model);
+    const auto size = static_cast<float>(similarity);
+    const float speed = std::sqrt(size); // Froude's similarity
+    scene.description = fmt::format("A jet of water wears a {} away.", model.what);
+    scene.solver = Solver::Dfsph;
+    scene.particles.spacing = static_cast<float>(std::cbrt(model.volume / wanted_solid_particles));
+    scene.physics.viscosity = static_cast<float>(std::min(0.1 * std::pow(similarity, 1.5), 0.2 * largest_viscosity));
+    scene.time.frame_rate = 30.0f / speed;
+    set_box(scene, model, 0.45f * largest, 0.4f * largest);
+    const glm::vec3 low = scene.domain.min;
+    const glm::vec3 high = scene.domain.max;
+    scene.domain.wall_viscosity = 5.0f * scene.physics.viscosity;
+
+    const float jet_speed = 3.2f * speed;
+    EmitterBody jet;
+    jet.shape = JetShape{.center = {low.x + 0.05f * largest, 0.6f * model.extent.y, 0.0f},
+                         .radius = std::max(0.08f * largest, scene.particles.spacing)};
+    jet.velocity = jet_speed * glm::vec3(1.0f, 0.1f, 0.0f);
+    jet.particles = 6000;
+    scene.emitters.push_back(jet);
+    const float drain = 0.1f * largest; // along the floor's borders
+    scene.sinks.push_back({BlockShape{low, {low.x + drain, drain, high.z}}});
+    scene.sinks.push_back({BlockShape{{high.x - drain, 0.0f, low.z}, {high.x, drain, high.z}}});
+
+    SolidBody stone;
+    stone.shape = mesh;
+    std::get<MeshShape>(stone.shape).position.y = 0.5f * model.extent.y + 0.25f * scene.particles.spacing;
+    stone.rest_density = 1800.0f;
+    stone.viscosity = 4.0f * scene.physics.viscosity;
+    stone.friction = scene.physics.viscosity;
+    stone.solid_color = {0.80f, 0.66f, 0.45f};
+    stone.color = {0.66f, 0.52f, 0.34f};
+    // The jet shears at its speed over a spacing: of any size it does so with 10 Pa, and wears as much away in a frame.
+    stone.erosion = {.erodes = true,
+                     .threshold = 3.0f,
+                     .rate = 60.0f * speed,
+                     .strength_contrast = 2.0f,
+                     .strength_grain = 0.15f * largest};
+    scene.hydraulic.exponent = 0.5f;
+    scene.hydraulic.consistency = 10.0f / std::sqrt(jet_speed / scene.particles.spacing);
+    scene.solids.push_back(stone);
+}
+
 } // namespace
 
 std::span<const LookName> look_names()
 {
-    static constexpr std::array<LookName, 3> names{
-        {{"drop", Look::Drop}, {"melt", Look::Melt}, {"vanish", Look::Vanish}}};
+    static constexpr std::array<LookName, 4> names{
+        {{"drop", Look::Drop}, {"melt", Look::Melt}, {"vanish", Look::Vanish}, {"wash", Look::Wash}}};
     return names;
 }
 
@@ -180,6 +226,9 @@ Scene mesh_scene(const std::string& name, Look look)
         break;
     case Look::Vanish:
         set_vanish(scene, mesh, model, similarity);
+        break;
+    case Look::Wash:
+        set_wash(scene, mesh, model, similarity);
         break;
     }
     return scene;

@@ -344,7 +344,9 @@ public:
                 statistics.rate_wind = (simulation->picked_up() - *picked_up_) / (statistics.time - time_);
             }
             picked_up_ = simulation->picked_up();
-            statistics.deposited = simulation->deposited();
+            if (has_hydraulic(scene_)) {
+                statistics.deposited = simulation->deposited();
+            }
             if (const auto heat = simulation->heat_statistics(particles)) {
                 statistics.enthalpy = heat->enthalpy;
                 statistics.exposed_area = heat->exposed_area;

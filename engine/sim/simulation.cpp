@@ -110,6 +110,9 @@ Simulation::Simulation(const gpu::Context& context, const ParticleSet& particles
     if (settings.options.capillarity) {
         capillarity_.emplace(context, settings.options, params_.pool_count);
     }
+    if (particles.release_time.empty() && (settings.melting || settings.hydraulic || !settings.emission.empty())) {
+        throw std::logic_error("Simulation: where particles may come or change, they have release times");
+    }
     if (!particles.release_time.empty()) {
         if (particles.release_time.size() != particles.size() || !options_.still) {
             throw std::logic_error("Simulation: release times are for each particle, and for still ones");
@@ -120,7 +123,7 @@ Simulation::Simulation(const gpu::Context& context, const ParticleSet& particles
             melting_.emplace(context, options_, params_, *settings.melting, particles.attributes);
         }
         if (settings.wind) {
-            wind_.emplace(context, options_, params_, *settings.wind);
+            wind_.emplace(context, params_, *settings.wind);
             wind_->record_start(*commands_);
         }
         if (settings.hydraulic) {
@@ -142,6 +145,9 @@ Simulation::Simulation(const gpu::Context& context, const ParticleSet& particles
     record_surface(*commands_);
     commands_->submit();
     commands_->wait();
+    if (wind_) {
+        wind_->spread_start(context, *exposure_);
+    }
 }
 
 std::uint32_t Simulation::steps_a_submission() const
@@ -220,7 +226,7 @@ void Simulation::erode(double time)
                                    erosion_->changes(), time, seconds);
     }
     if (wind_) {
-        wind_->record_changes(commands, params_buffer_, particles_, grid_, *exposure_, erosion_->changes(), seconds);
+        wind_->record_changes(commands, params_buffer_, particles_, *exposure_, erosion_->changes(), seconds);
     }
     if (emission_) {
         emission_->record_calls(commands, params_buffer_, particles_, erosion_->release_time(), erosion_->changes(),
@@ -239,7 +245,7 @@ void Simulation::erode(double time)
     params_.moving_count += found.freed + called - found.died - found.frozen - found.deposited;
     particles_.moving = params_.moving_count;
     gone_ += found.died - called;
-    if (found.freed + found.died + found.frozen + found.deposited + called == 0) {
+    if (found.freed + found.died + found.frozen + found.deposited + found.slid + called == 0) {
         return;
     }
     commands.begin();
@@ -306,7 +312,8 @@ void Simulation::advance(std::uint32_t steps)
         commands_->begin();
         time_.set_remaining(*commands_, std::numeric_limits<float>::infinity());
         const Readback seen = submit_steps(batch, seconds_);
-        seconds_ += time_.adaptive() ? static_cast<double>(seen.time.elapsed) : batch * static_cast<double>(params_.dt);
+        seconds_ = time_.adaptive() ? seconds_ + static_cast<double>(seen.time.elapsed)
+                                    : static_cast<double>(step_) * static_cast<double>(params_.dt); // in any portions
         steps -= batch;
     }
     wanted_seconds_ = seconds_;

@@ -4,15 +4,18 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <vector>
 
 #include "core/error.h"
 #include "gpu/transfer.h"
-#include "particles/sph_kernel.h"
 #include "shared/pool_changes.h"
+#include "spirv/sim/alight.comp.h"
+#include "spirv/sim/column_top.comp.h"
 #include "spirv/sim/ground.comp.h"
 #include "spirv/sim/hop.comp.h"
 #include "spirv/sim/land.comp.h"
-#include "spirv/sim/land_apply.comp.h"
+#include "spirv/sim/slide.comp.h"
+#include "spirv/sim/slide_apply.comp.h"
 #include "spirv/sim/wind_erode.comp.h"
 
 namespace meltpoint::sim {
@@ -27,38 +30,7 @@ constexpr double air_viscosity = 1.8e-5;    // Pa s
 constexpr double least_hop = 4.0;           // spacings
 constexpr double fastest_launch = 100.0;    // m/s
 constexpr double first_slide_degrees = 1.0; // beyond the angle of repose
-
-/// Of passes in which a few particles walk, each alone, through the moving or the still ones.
-FluidOptions one_by_one(FluidOptions options)
-{
-    options.still = false;
-    options.tile = 1;
-    return options;
-}
-
-/// q = r/H of sum V W.
-double filling_of(const shared::SphParams& params, std::uint32_t kernel, double q)
-{
-    return static_cast<double>(params.lattice_volume) * static_cast<double>(params.density_scale) *
-           density_shape(kernel, q);
-}
-
-/// WindParams::rest_support: a lattice's surface a spacing below, and over one of its particles.
-double support_of(const shared::SphParams& params, std::uint32_t kernel)
-{
-    const double ratio = static_cast<double>(params.support_radius) / static_cast<double>(params.spacing);
-    const int reach = static_cast<int>(std::ceil(ratio));
-    double sum = 0.0;
-    for (int z = -reach; z <= reach; ++z) {
-        for (int y = 1; y <= reach; ++y) {
-            for (int x = -reach; x <= reach; ++x) {
-                const double r = std::sqrt(static_cast<double>(x * x + y * y + z * z));
-                sum += filling_of(params, kernel, r / ratio) * y / r;
-            }
-        }
-    }
-    return sum;
-}
+constexpr std::uint32_t nobody = 0xffffffffu;
 
 /// m, that a grain gets over flat ground before it is down again.
 double hop_length(double launch_speed, double response, const WindSettings& settings, double gravity)
@@ -100,6 +72,12 @@ double launch_speed(double response, const WindSettings& settings, double gravit
 double tangent(double degrees)
 {
     return std::tan(degrees * std::numbers::pi / 180.0);
+}
+
+/// s, in which sand slides by a spacing: half of what it takes to fall as far from rest.
+double spacing_time(const shared::SphParams& params)
+{
+    return 0.5 * std::sqrt(2.0 * static_cast<double>(params.spacing) / glm::length(glm::dvec3(params.gravity)));
 }
 
 /// s of motion, in which the wind at its strongest takes a layer of particles.
@@ -147,7 +125,7 @@ double response_time(const Sand& sand, double air_density, double gravity)
     return response;
 }
 
-shared::WindParams wind_params(const WindSettings& settings, const shared::SphParams& params, std::uint32_t kernel)
+shared::WindParams wind_params(const WindSettings& settings, const shared::SphParams& params)
 {
     const glm::dvec3 gravity(params.gravity);
     const double g = glm::length(gravity);
@@ -174,10 +152,6 @@ shared::WindParams wind_params(const WindSettings& settings, const shared::SphPa
     wind.up = up;
     wind.roughness_length = static_cast<float>(settings.roughness_length);
     wind.floor_height = static_cast<float>(glm::dot(up, 0.5 * (low + high)) - 0.5 * glm::dot(glm::abs(up), high - low));
-    wind.rest_support = static_cast<float>(support_of(params, kernel));
-    wind.own_filling = static_cast<float>(filling_of(params, kernel, 0.0));
-    wind.slide_speed = static_cast<float>(std::sqrt(2.0 * g * spacing));
-    wind.rest_speed = static_cast<float>(0.1 * std::sqrt(g * spacing));
     for (std::uint32_t material = 0; material < shared::MAX_MATERIALS; ++material) {
         const Sand& sand = settings.sand[material];
         if (!sand.erodes) {
@@ -185,7 +159,6 @@ shared::WindParams wind_params(const WindSettings& settings, const shared::SphPa
         }
         shared::WindMaterial& its = wind.of[material];
         its.erodes = 1;
-        its.friction = static_cast<float>(tangent(sand.repose_angle));
         its.steepest = static_cast<float>(tangent(sand.repose_angle + first_slide_degrees));
         its.response_time = static_cast<float>(response_time(sand, settings.air_density, g));
         if (blows) {
@@ -210,20 +183,22 @@ VisibilitySettings wind_view(const shared::WindParams& wind)
     return {.direction = wind.direction - shared::REATTACHMENT_SLOPE * wind.up};
 }
 
-Wind::Wind(const gpu::Context& context, const FluidOptions& options, const shared::SphParams& params,
-           const WindSettings& settings)
-    : params_(wind_params(settings, params, options.kernel)), time_scale_(settings.time_scale),
-      longest_look_(0.025 * shortest_erosion(params_, params, settings.time_scale)),
+Wind::Wind(const gpu::Context& context, const shared::SphParams& params, const WindSettings& settings)
+    : params_(wind_params(settings, params)), time_scale_(settings.time_scale), spacing_(params.spacing),
+      slide_time_(spacing_time(params)),
+      longest_look_(std::min(0.025 * shortest_erosion(params_, params, settings.time_scale), slide_time_)),
       visibility_(context, wind_view(params_), params), from_above_(context, ground_view(params_), params),
-      ground_kernel_(context, "ground", sim_ground_comp), erode_(context, "wind_erode", sim_wind_erode_comp),
-      hop_(context, "hop", sim_hop_comp, fluid_constants(context.info(), one_by_one(options))),
-      land_(context, "land", sim_land_comp, fluid_constants(context.info(), one_by_one(options))),
-      land_apply_(context, "land_apply", sim_land_apply_comp),
+      ground_kernel_(context, "ground", sim_ground_comp), column_top_(context, "column_top", sim_column_top_comp),
+      erode_(context, "wind_erode", sim_wind_erode_comp), slide_(context, "slide", sim_slide_comp),
+      alight_(context, "alight", sim_alight_comp), slide_apply_(context, "slide_apply", sim_slide_apply_comp),
+      land_(context, "land", sim_land_comp), hop_(context, "hop", sim_hop_comp),
       params_buffer_(gpu::make_buffer<shared::WindParams>(context, 1, "wind params")),
       ground_(gpu::make_buffer<glm::vec4>(context, from_above_.texels(), "ground")),
+      top_id_(gpu::make_buffer<std::uint32_t>(context, from_above_.texels(), "column tops")),
+      way_(gpu::make_buffer<std::uint32_t>(context, from_above_.texels(), "ways")),
+      claim_(gpu::make_buffer<std::uint32_t>(context, from_above_.texels(), "claims")),
       damage_(gpu::make_buffer<glm::vec2>(context, params.pool_count, "damage")),
-      rests_(gpu::make_buffer<std::uint32_t>(context, params.pool_count, "rests")),
-      lands_(gpu::make_buffer<std::uint32_t>(context, params.pool_count, "lands"))
+      rests_(gpu::make_buffer<std::uint32_t>(context, params.pool_count, "rests"))
 {
     gpu::upload<shared::WindParams>(context, params_buffer_, {&params_, 1});
 }
@@ -232,7 +207,6 @@ void Wind::record_start(gpu::Commands& commands) const
 {
     commands.fill(damage_, 0);
     commands.fill(rests_, 0);
-    commands.fill(lands_, 0);
 }
 
 void Wind::record_surface(gpu::Commands& commands, const gpu::Buffer& params, const ParticleBuffers& particles,
@@ -243,24 +217,44 @@ void Wind::record_surface(gpu::Commands& commands, const gpu::Buffer& params, co
     from_above_.record(commands, params, particles, exposure.exposure());
     commands.dispatch(ground_kernel_, from_above_.texels(), gpu::NoPush{},
                       {read(params), read(from_above_.params()), read(from_above_.map()), write(ground_)});
+    commands.fill(top_id_, nobody);
+    commands.dispatch(column_top_, particles.count - particles.moving, gpu::NoPush{},
+                      {read(params), read(params_buffer_), read(from_above_.params()), read(ground_),
+                       read(particles.id), read(particles.attributes), read(particles.position),
+                       read(from_above_.map()), read_write(top_id_)});
 }
 
 void Wind::record_changes(gpu::Commands& commands, const gpu::Buffer& params, const ParticleBuffers& particles,
-                          const NeighborGrid& grid, const Exposure& exposure, const gpu::Buffer& changes,
-                          double seconds) const
+                          const Exposure& exposure, const gpu::Buffer& changes, double seconds)
 {
     const gpu::Scope scope(commands, "wind");
-    commands.dispatch(erode_, particles.count - particles.moving, static_cast<float>(seconds * time_scale_),
+    const std::uint32_t still = particles.count - particles.moving;
+    commands.fill(way_, shared::WAY_NONE);
+    commands.fill(claim_, nobody);
+    commands.dispatch(erode_, still, static_cast<float>(seconds * time_scale_),
                       {read(params), read(params_buffer_), read(from_above_.params()), read(ground_),
                        read(particles.id), read(exposure.exposure()), read(visibility_.visibility()),
                        read_write(damage_), read_write(particles.attributes), read_write(particles.position),
-                       read_write(particles.velocity), read_write(changes)});
+                       read_write(particles.velocity), read_write(changes), read(top_id_), write(way_)});
+    commands.dispatch(alight_, particles.moving, gpu::NoPush{},
+                      {read(params), read(params_buffer_), read(from_above_.params()), read(ground_),
+                       read(particles.id), read(particles.attributes), read(particles.position), read(rests_),
+                       read_write(claim_)});
+    slid_for_ += seconds;
+    if (slid_for_ >= slide_time_) {
+        slid_for_ = 0.0;
+        commands.dispatch(slide_, still, gpu::NoPush{},
+                          {read(params), read(params_buffer_), read(from_above_.params()), read(ground_),
+                           read(particles.id), read(particles.attributes), read(particles.position), read(top_id_),
+                           write(way_), read_write(claim_)});
+        commands.dispatch(slide_apply_, still, gpu::NoPush{},
+                          {read(params), read(params_buffer_), read(from_above_.params()), read(ground_),
+                           read(particles.id), read(top_id_), read(way_), read(claim_),
+                           read_write(particles.attributes), read_write(particles.position), read_write(changes)});
+    }
     commands.dispatch(land_, particles.moving, gpu::NoPush{},
-                      {read(params), read(grid.cell_start), read(params_buffer_), read(particles.id),
-                       read(particles.attributes), read(particles.position), read(particles.position), read(rests_),
-                       write(lands_)});
-    commands.dispatch(land_apply_, particles.moving, gpu::NoPush{},
-                      {read(params), read(particles.id), read_write(lands_), read_write(rests_),
+                      {read(params), read(params_buffer_), read(from_above_.params()), read(ground_),
+                       read(particles.id), read(top_id_), read(way_), read(claim_), read_write(rests_),
                        read_write(particles.attributes), read_write(particles.position), read_write(particles.velocity),
                        read_write(changes)});
 }
@@ -270,16 +264,28 @@ void Wind::record_step(gpu::Commands& commands, const Fluid& fluid, const gpu::B
     const ParticleBuffers& particles = fluid.particles;
     const gpu::Scope scope(commands, "sand");
     commands.dispatch(hop_, particles.moving, gpu::NoPush{},
-                      {read(fluid.params), read(fluid.grid.cell_start), read(params_buffer_),
-                       read(from_above_.params()), read(ground_), read(particles.id), read_write(particles.attributes),
-                       read_write(particles.position), read(particles.position), read_write(particles.velocity),
-                       write(particles.density), write(rests_), read_write(ledger)});
+                      {read(fluid.params), read(params_buffer_), read(from_above_.params()), read(ground_),
+                       read(particles.id), read_write(particles.attributes), read_write(particles.position),
+                       read_write(particles.velocity), write(particles.density), read_write(rests_),
+                       read_write(ledger)});
+}
+
+void Wind::spread_start(const gpu::Context& context, const Exposure& exposure) const
+{
+    constexpr float least_area = 0.3f; // d^2
+    const float area = least_area * spacing_ * spacing_;
+    const std::vector<glm::vec4> surfaces = exposure.download();
+    std::vector<glm::vec2> damage(surfaces.size(), glm::vec2(0.0f));
+    for (std::uint32_t id = 0; id < surfaces.size(); ++id) {
+        damage[id].x = surfaces[id].w > area ? shared::random_share(id) : 0.0f;
+    }
+    gpu::upload<glm::vec2>(context, damage_, damage);
 }
 
 std::uint64_t Wind::device_bytes() const
 {
     return visibility_.device_bytes() + from_above_.device_bytes() + params_buffer_.size() + ground_.size() +
-           damage_.size() + rests_.size() + lands_.size();
+           top_id_.size() + way_.size() + claim_.size() + damage_.size() + rests_.size();
 }
 
 } // namespace meltpoint::sim

@@ -46,10 +46,9 @@ struct WindSettings {
 /// Schiller & Naumann 1933).
 [[nodiscard]] double response_time(const Sand& sand, double air_density, double gravity);
 
-/// For the passes. `params` with gravity, domain and kernel scales filled in. Throws Input where there is no gravity or
+/// For the passes. `params` with gravity and domain filled in. Throws Input where there is no gravity or
 /// no direction, or where a hop is shorter than four spacings, or longer than one that is launched at 100 m/s.
-[[nodiscard]] shared::WindParams wind_params(const WindSettings& settings, const shared::SphParams& params,
-                                             std::uint32_t kernel);
+[[nodiscard]] shared::WindParams wind_params(const WindSettings& settings, const shared::SphParams& params);
 
 /// The map that the ground is seen on from above, and the one that shows what the wind sees.
 [[nodiscard]] VisibilitySettings ground_view(const shared::WindParams& wind);
@@ -60,36 +59,40 @@ struct WindSettings {
 class Wind {
 public:
     /// Throws as wind_params and Visibility.
-    Wind(const gpu::Context& context, const FluidOptions& options, const shared::SphParams& params,
-         const WindSettings& settings);
+    Wind(const gpu::Context& context, const shared::SphParams& params, const WindSettings& settings);
 
-    /// Nobody is damaged, at rest or about to land.
+    /// Nobody is damaged or has come down.
     void record_start(gpu::Commands& commands) const;
+    /// The wind has been at work before the start: of those at the surface, of which `exposure` is, some have almost
+    /// been taken, by their ids. Waits.
+    void spread_start(const gpu::Context& context, const Exposure& exposure) const;
 
     /// What of solids the wind sees, and the ground: to be found out again whenever others are solid. `exposure` must
     /// be that of the present solids.
     void record_surface(gpu::Commands& commands, const gpu::Buffer& params, const ParticleBuffers& particles,
                         const Exposure& exposure) const;
 
-    /// What the wind has taken in the `seconds` of motion since the last look, what begins to slide, and what has
-    /// landed, counted in `changes`, shared::PoolChanges: they lie among the others yet.
+    /// What the wind has taken in the `seconds` of motion since the last look, what slides by a spacing or falls off a
+    /// slope, and what has landed, counted in `changes`, shared::PoolChanges: they lie where they were yet.
     void record_changes(gpu::Commands& commands, const gpu::Buffer& params, const ParticleBuffers& particles,
-                        const NeighborGrid& grid, const Exposure& exposure, const gpu::Buffer& changes,
-                        double seconds) const;
+                        const Exposure& exposure, const gpu::Buffer& changes, double seconds);
 
-    /// Sand that hops or slides moves by the step that has just been taken. ledger: shared::Ledger.
+    /// Sand in the air moves by the step that has just been taken. ledger: shared::Ledger.
     void record_step(gpu::Commands& commands, const Fluid& fluid, const gpu::Buffer& ledger) const;
     /// Of the commands of a step.
     [[nodiscard]] static std::uint32_t scopes() { return 1; }
 
     /// s of motion, the longest from one look to the next: in it the wind takes at most a fortieth of a particle, for
-    /// what it takes beyond a whole one is lost to the next one. Infinite where it takes nothing.
+    /// what it takes beyond a whole one is lost to the next one; and sand does not slide by more than a spacing.
     [[nodiscard]] double longest_look() const { return longest_look_; }
+
+    /// s of motion, from one slide by a spacing to the next.
+    [[nodiscard]] double slide_time() const { return slide_time_; }
 
     [[nodiscard]] const shared::WindParams& params() const { return params_; }
     /// By id: two-floats, 1 where a particle is about to hop.
     [[nodiscard]] const gpu::Buffer& damage() const { return damage_; }
-    /// By id: uint, 1 where it is loose and at rest.
+    /// By id: uint, 1 where it has come down and waits to be solid.
     [[nodiscard]] const gpu::Buffer& rests() const { return rests_; }
 
     [[nodiscard]] std::uint64_t device_bytes() const;
@@ -97,20 +100,27 @@ public:
 private:
     shared::WindParams params_;
     double time_scale_;
+    float spacing_;
+    double slide_time_; ///< s, in which sand slides by a spacing
     double longest_look_;
+    double slid_for_ = 0.0; ///< s, since it did
     Visibility visibility_; ///< by the wind
     Visibility from_above_;
-    std::uint32_t texels_; ///< of the ground
     gpu::Kernel ground_kernel_;
+    gpu::Kernel column_top_;
     gpu::Kernel erode_;
-    gpu::Kernel hop_;
+    gpu::Kernel slide_;
+    gpu::Kernel alight_;
+    gpu::Kernel slide_apply_;
     gpu::Kernel land_;
-    gpu::Kernel land_apply_;
+    gpu::Kernel hop_;
     gpu::Buffer params_buffer_; ///< shared::WindParams
     gpu::Buffer ground_;        ///< vec4 a texel
+    gpu::Buffer top_id_;        ///< uint a texel: of the uppermost particle
+    gpu::Buffer way_;           ///< uint a texel: shared::WAY_*, of this look
+    gpu::Buffer claim_;         ///< uint a texel: who comes to lie there, of this look
     gpu::Buffer damage_;
     gpu::Buffer rests_;
-    gpu::Buffer lands_; ///< by id: uint, 1 between the two passes where it is to be solid
 };
 
 } // namespace meltpoint::sim

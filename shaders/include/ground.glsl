@@ -1,6 +1,6 @@
-// The ground that sand lies on, seen from above: of each texel of a depth map (shared/visibility.h), a spacing wide, the plane
-// that fits the tops around it best. Include it after the declarations of `params`, `view`, the map's VisibilityParams, `wind`, and
-// `ground`.
+// The ground that sand lies on, seen from above: of each texel of a depth map (shared/visibility.h), a spacing wide, the column
+// that stands there and the plane that fits the tops around it best. Include it after the declarations of `params`, `view`, the
+// map's VisibilityParams, `wind`, and `ground`, and of `top_id` where column_top() is called.
 #ifndef GROUND_GLSL
 #define GROUND_GLSL
 #include "include/periodic.glsl"
@@ -20,34 +20,30 @@ ivec2 texel_at(vec3 x)
     return clamp(ivec2(floor(vec2(dot(offset, view.right), dot(offset, view.up)))), ivec2(0), ivec2(view.width, view.height) - 1);
 }
 
-Ground ground_at(vec3 x)
+uint index_of(ivec2 texel) { return uint(texel.y) * view.width + uint(texel.x); }
+
+Ground ground_at(ivec2 texel)
 {
-    ivec2 texel = texel_at(x);
-    vec4 plane = ground[texel.y * int(view.width) + texel.x];
+    vec4 plane = ground[index_of(texel)];
     return Ground(plane.x, plane.y * view.right + plane.z * view.up, plane.w);
 }
 
-// The steepest way down from x, of eight: the gradient of the ground along it, zero where all lead up. A plane would not see that
-// a thin tower is steep: the tops themselves are compared.
-vec3 steepest_fall(vec3 x)
+// One of the eight around a texel, k % 3 - 1, k / 3 - 1 away: itself where that is beyond a border.
+ivec2 neighbor_of(ivec2 texel, uint k)
 {
-    ivec2 here = texel_at(x);
-    float top = ground[here.y * int(view.width) + here.x].w; // loose grains lie on it: they themselves are no slope
-    bool along = is_periodic_along(view.right);
-    bool across = is_periodic_along(view.up);
-    vec3 steepest = vec3(0.0);
-    float its_slope = 0.0;
-    for (int k = 0; k < 9; ++k) {
-        ivec2 way = FALL_REACH * ivec2(k % 3 - 1, k / 3 - 1);
-        ivec2 there = ivec2(inside(here.x + way.x, int(view.width), along), inside(here.y + way.y, int(view.height), across));
-        float reach = max(length(vec2(way)), 1.0);
-        float slope = (top - ground[there.y * int(view.width) + there.x].w) / (reach * view.texel);
-        if (k != 4 && slope > its_slope + EQUAL_FALL) {
-            its_slope = slope;
-            steepest = -slope / reach * (float(way.x) * view.right + float(way.y) * view.up);
-        }
-    }
-    return steepest;
+    ivec2 there = texel + ivec2(k % 3u, k / 3u) - 1;
+    return ivec2(inside(there.x, int(view.width), is_periodic_along(view.right)),
+                 inside(there.y, int(view.height), is_periodic_along(view.up)));
+}
+
+// Where a particle in the middle of a column is, so many m above the floor: in the domain.
+vec3 place_in_column(ivec2 texel, float height)
+{
+    vec2 middle = (vec2(texel) + 0.5) * view.texel;
+    vec3 x = view.origin + middle.x * view.right + middle.y * view.up;
+    x += (height - height_of(x)) * wind.up;
+    vec3 half_way = 0.5 * (params.domain_min + params.domain_max); // of an axis that is shorter than a spacing
+    return clamp(x, min(params.domain_min + 0.5 * params.spacing, half_way), max(params.domain_max - 0.5 * params.spacing, half_way));
 }
 
 #endif

@@ -11,6 +11,7 @@ struct PoolChanges {
     uint died;   // moving ones that are dead
     uint frozen; // moving ones that are solid
     uint deposited; // moving ones that are solid, of sediment or sand at rest
+    uint slid;      // still ones that are elsewhere
     uint picked_up[MAX_MATERIALS]; // of those freed, sand that the wind has taken, by material
     uint called[MAX_EMITTERS]; // dead ones that were called up to be born, by emitter
 };

@@ -1,7 +1,10 @@
 // Wind over sand. What the wind takes off a flat bed is Bagnold's flux over the length of a hop (Bagnold 1941), times what the
 // slope does to its shear stress (Kroy, Sauermann & Herrmann 2002), where the wind sees the surface at all. A grain that it has
-// taken hops: it flies through the wind's logarithmic profile until it comes down. Then it is loose: it stays where it is, or
-// slides where the ground falls off more steeply than its angle of repose. At the next look it is solid again where there is room.
+// taken hops: it flies through the wind's logarithmic profile until it comes down on the sand, and is solid again.
+//
+// Sand stands in columns, a spacing wide, that are seen from above. Where they fall off more steeply than its angle of repose, the
+// top of a column slides to the lowest one beside it, a spacing at a time (as in Werner, "Eolian dunes", Geology 23, 1995): so a
+// slope comes to rest at its angle, whatever the order in which grains arrive, and nothing has to be balanced on its neighbors.
 //
 // One particle stands for all the sand in its volume; the size of a grain is that of the sand.
 #ifndef MELTPOINT_SHARED_WIND_H
@@ -22,12 +25,17 @@ SHARED_CONSTANT float STEEPEST_STRESS = 1.0f; // slope from which on it rises no
 SHARED_CONSTANT float REATTACHMENT_SLOPE = 1.0f / 6.0f;
 
 // In spacings.
-SHARED_CONSTANT int GROUND_REACH = 3;      // texels of a spacing on each side, to which the ground's plane is fitted
-SHARED_CONSTANT int FALL_REACH = 3;        // how far down a slope is looked at: less would take a single particle for a slope
-SHARED_CONSTANT float EQUAL_FALL = 1e-4f;  // slopes that differ by less are the same: the first way of them is taken
-SHARED_CONSTANT float COVERED = 0.9f;      // a particle that lies deeper than so under its column's top is covered
-SHARED_CONSTANT float BURIED = 0.5f;       // a hop ends so deep under the mean ground, as it runs into a slope
-SHARED_CONSTANT float LONGEST_PUSH = 0.1f; // a step, out of solid
+SHARED_CONSTANT int GROUND_REACH = 3;         // texels of a spacing on each side, to which the ground's plane is fitted
+SHARED_CONSTANT float STEEPEST_STEP = 1.5f;   // between neighboring columns, of sand at any angle of repose: no towers
+SHARED_CONSTANT float LEAST_STEP = 0.9f;      // down which a grain slides: it is to end no higher than it was
+SHARED_CONSTANT float HIGHEST_SLIDE = 2.5f;   // a grain that is to come down by more than so falls
+SHARED_CONSTANT float EQUAL_STEP = 1e-3f;     // steps that differ by less are the same: the first of them is taken
+SHARED_CONSTANT float HIGHEST_CLIMB = 1.0f;   // that a flying grain is beneath a column and still comes down on it
+
+// Where a column's top goes, as one of its eight neighbors k % 3 - 1, k / 3 - 1 on the map.
+SHARED_CONSTANT uint WAY_NONE = 4u;  // it stays
+SHARED_CONSTANT uint WAY_TAKEN = 9u; // the wind has taken it
+SHARED_CONSTANT uint WAY_FALLS = 16u; // added to the others: it falls there, instead of sliding
 
 SHARED_CONSTANT float LEAST_LAUNCH = 0.7f;   // speed of the slowest over that of the mean; the fastest has as much more
 SHARED_CONSTANT float FLYING_VOLUME = 0.25f; // that is seen of a particle while it hops: its sand is spread out
@@ -36,8 +44,7 @@ struct WindMaterial {
     uint erodes;           // 1 of sand
     float pick_up;         // kg/(m^2 s), of a flat bed in full wind, were there no threshold
     float threshold;       // shear stress over that on flat ground, below which it takes nothing
-    float friction;        // tangent of the angle of repose
-    float steepest;        // tangent of that at which sand at rest begins to slide
+    float steepest;        // tangent of the angle at which sand begins to slide
     float response_time;   // s, in which a grain takes on most of the air's velocity
     float launch_speed;    // m/s, upward, at which a mean hop begins
 };
@@ -48,10 +55,6 @@ struct WindParams {
     vec3 up;                 // and against gravity
     float roughness_length;  // z0, m
     float floor_height;      // m, along up, of the lowest border
-    float rest_support;      // of a particle on the surface of a lattice (support_of)
-    float own_filling;       // V W(0)
-    float rest_speed;        // m/s: what is slower is at rest
-    float slide_speed;       // m/s, at most, of loose grains on others: that of a fall by a spacing, lost as they meet
     WindMaterial of[MAX_MATERIALS];
 };
 
@@ -62,10 +65,13 @@ SHARED_FUNCTION float stress_on_slope(float slope)
     return 1.0f + STRESS_OF_SLOPE * s;
 }
 
-// Of a hop, over that of a mean one: as random as an id is (Knuth's multiplicative hash).
+// From 0 to 1, as random as an id is (Knuth's multiplicative hash).
+SHARED_FUNCTION float random_share(uint id) { return float((id * 2654435769u) >> 8u) / 16777216.0f; }
+
+// Of a hop, over that of a mean one.
 SHARED_FUNCTION float launch_share(uint id)
 {
-    float share = float((id * 2654435769u) >> 8u) / 16777216.0f;
+    float share = random_share(id);
     return LEAST_LAUNCH + 2.0f * (1.0f - LEAST_LAUNCH) * share;
 }
 

@@ -24,8 +24,7 @@ void main()
         vec3 v = velocity[i].xyz;
         vec3 later = v + params.dt * acceleration[i].xyz;
         float speed2 = max(dot(v, v), dot(later, later));
-        bool is_due = (attributes[i] & FLAG_DUE) != 0u; // the step that it is born in is to be short enough for it
-        fastest = is_due || !is_boundary(attributes[i]) ? max(fastest, speed2) : fastest;
+        fastest = is_boundary(attributes[i]) ? fastest : max(fastest, speed2);
     }
     atomicMax(step.fastest, floatBitsToUint(fastest));
 }

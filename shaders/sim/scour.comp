@@ -26,7 +26,7 @@ layout(set = 0, binding = 9, scalar) readonly buffer Exposure { vec4 exposure[];
 layout(set = 0, binding = 10, scalar) readonly buffer Strength { float strength[]; }; // by id
 layout(set = 0, binding = 11, scalar) buffer Damage { vec2 damage[]; };               // by id, two-floats
 layout(set = 0, binding = 12, scalar) buffer Rate { float rate[]; };                  // by id, 1/s
-layout(set = 0, binding = 13, scalar) buffer Fastest { uint fastest; };               // bits of the largest rate: in order, as none is negative
+layout(set = 0, binding = 13, scalar) buffer Fastest { uint fastest; }; // bits of the largest rate; in order, as none is negative
 
 // The mean velocity of the fluid around a point, and in w the part of space that it fills there.
 vec4 flow_at(vec3 x)

@@ -2,7 +2,7 @@
 #extension GL_EXT_control_flow_attributes : require
 #extension GL_GOOGLE_include_directive : require
 // What sun and air give, since the last look, to the exposed surface of solids where no fluid covers it (shared/melting.h). And
-// those who are called up to be born get the enthalpy that they come with. Twin: engine/reference/melting.cpp.
+// the dead get the enthalpy that they would be born with. Twin: engine/reference/melting.cpp.
 #define CELL_START_BINDING 1
 #include "include/candidate.glsl"
 #include "include/invocation.glsl"
@@ -52,7 +52,7 @@ void main()
     }
     uint slot = id[i];
     uint material = particle_material(attributes[i]);
-    if ((attributes[i] & FLAG_DUE) != 0u) {
+    if (particle_state(attributes[i]) == STATE_DEAD) {
         enthalpy[slot] = vec2(melting.birth_enthalpy[material], 0.0);
     }
     vec4 surface = exposure[slot];

@@ -1,7 +1,7 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 // Sand at the surface: the wind takes what it is able to since the last look, counted as damage, and whose damage is complete
-// hops. Where the ground falls off too steeply sand begins to slide. Nobody leaves from under others. Twin: engine/reference/wind.cpp.
+// hops, if it is the top of its column: nobody leaves from under others. Twin: engine/reference/wind.cpp.
 #include "include/invocation.glsl"
 #include "shared/particle_state.h"
 #include "shared/pool_changes.h"
@@ -23,6 +23,8 @@ layout(set = 0, binding = 8, scalar) buffer Attributes { uint attributes[]; };
 layout(set = 0, binding = 9, scalar) buffer Position { vec4 position[]; }; // w: weight
 layout(set = 0, binding = 10, scalar) buffer Velocity { vec4 velocity[]; }; // w: mass, negative of boundary particles
 layout(set = 0, binding = 11, scalar) buffer Changes { PoolChanges changes; };
+layout(set = 0, binding = 12, scalar) readonly buffer TopId { uint top_id[]; };  // of each texel
+layout(set = 0, binding = 13, scalar) writeonly buffer Way { uint way[]; };      // of each texel: WAY_*
 
 #include "include/ground.glsl"
 
@@ -38,23 +40,21 @@ void main()
         return;
     }
     uint slot = id[i];
-    Ground below = ground_at(position[i].xyz);
+    ivec2 texel = texel_at(position[i].xyz);
     vec4 surface = exposure[slot];
-    float stress = stress_on_slope(dot(below.slope, wind.direction));
+    float stress = stress_on_slope(dot(ground_at(texel).slope, wind.direction));
     // Flux goes with the third power of the friction velocity, the stress with the second.
     float share = stress > sand.threshold && dot(surface.xyz, wind.up) > 0.0 ? stress * sqrt(stress) : 0.0;
     float taken = sand.pick_up * share * visibility[slot] * surface.w * seconds / abs(velocity[i].w);
     damage[slot] = two_float_add(damage[slot], taken);
 
-    bool is_top = height_of(position[i].xyz) > below.top - COVERED * params.spacing;
-    bool hops = is_top && damage[slot].x >= 1.0;
-    bool slides = is_top && !hops && length(steepest_fall(position[i].xyz)) > sand.steepest;
-    if (hops || slides) {
-        attributes[i] = freed_as(attributes[i], STATE_DUST, hops ? CAUSE_WIND : CAUSE_SLIDE);
+    if (damage[slot].x >= 1.0 && top_id[index_of(texel)] == slot) {
+        attributes[i] = freed_as(attributes[i], STATE_DUST, CAUSE_WIND);
         position[i].w = 0.0;
-        velocity[i].xyz = hops ? sand.launch_speed * launch_share(slot) * wind.up : vec3(0.0);
-        damage[slot] = hops ? vec2(0.0) : damage[slot];
+        velocity[i].xyz = sand.launch_speed * launch_share(slot) * wind.up;
+        damage[slot] = vec2(0.0);
+        way[index_of(texel)] = WAY_TAKEN;
         atomicAdd(changes.freed, 1u);
-        atomicAdd(changes.picked_up[material], hops ? 1u : 0u);
+        atomicAdd(changes.picked_up[material], 1u);
     }
 }

@@ -598,9 +598,10 @@ Scene random_scene(std::uint64_t seed)
     for (FluidBody& fluid : scene.fluids) {
         fluid.temperature = fluid.thermal.melting_point + 3.5f;
     }
-    for (SolidBody& solid : scene.solids) { // heat turns none into dust
+    for (SolidBody& solid : scene.solids) { // neither heat nor flow turns any into dust
         solid.temperature = solid.thermal.melting_point - 3.5f;
-        solid.becomes = solid.melts ? SolidBecomes::Fluid : solid.becomes;
+        solid.becomes = solid.melts || solid.erosion.erodes ? SolidBecomes::Fluid : solid.becomes;
+        solid.erosion.grain_size = std::nullopt; // grains are heavier than the fluid
     }
     for (EmitterBody& emitter : scene.emitters) {
         emitter.fluid.temperature = emitter.fluid.thermal.melting_point + 3.5f;

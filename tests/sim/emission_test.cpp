@@ -95,8 +95,10 @@ TEST_F(EmissionTest, BirthsAndSinksAreTheTwins)
     ParticleSet start = lattice_state({1, 1, 1}, glm::vec3(0.9f, 0.5f, 0.9f));
     add_rain(its, start, 0.011f, 60);
     add_jet(its, start, {0.2f, 0.4f, 0.4f}, {1.5f, 0.0f, 0.0f}, 1, 9);
-    its.emission.sinks = {block({0.0f, 0.1f, 0.0f}, {1.0f, 0.3f, 1.0f}),
-                          {.low = {0.5f, 0.4f, 0.4f}, .shape = shared::SINK_SPHERE, .high = {0.07f, 0.0f, 0.0f}}};
+    its.emission.sinks = {
+        block({0.0f, 0.1f, 0.0f}, {1.0f, 0.3f, 1.0f}),
+        {.low = {0.5f, 0.45f, 0.45f}, .shape = shared::SINK_SPHERE, .high = {0.07f, 0.0f, 0.0f}}, // just missed
+        {.low = {0.7f, 0.4f, 0.4f}, .shape = shared::SINK_SPHERE, .high = {0.07f, 0.0f, 0.0f}}};
     sim::Simulation simulation(context(), start, its);
     reference::Settings twin_settings{.kernel = its.options.kernel, .params = simulation.params()};
     reference::State twin = reference::from_particle_set(start);
@@ -245,6 +247,7 @@ TEST_F(EmissionTest, PausesWhenItsParticlesAreOut)
     simulation.advance(100);
     EXPECT_EQ(simulation.ledger().emitted, 40u);
     EXPECT_GT(simulation.missed_births()[0], 50u);
+    EXPECT_LT(simulation.missed_births()[0], 100u); // of 128 births in all, each counted once
     const ParticleSet found = simulation.download();
     EXPECT_EQ(count(found, shared::STATE_FLUID), 40u);
 }
@@ -261,17 +264,19 @@ TEST_F(EmissionTest, RerunsAreBitIdentical)
     add_rain(its, start, 0.001f, 150); // drops that come at the same time in the same place
     its.emission.sinks = {block({0.5f, 0.0f, 0.0f}, {1.0f, 0.2f, 1.0f})};
     ParticleSet seen[2];
+    std::uint32_t emitted = 0;
     for (ParticleSet& each : seen) {
         sim::Simulation simulation(context(), start, its);
         for (int frame = 0; frame < 10; ++frame) {
             simulation.advance_by(0.031);
         }
         each = simulation.download();
+        emitted = simulation.ledger().emitted;
     }
     EXPECT_EQ(seen[0].attributes, seen[1].attributes);
     EXPECT_EQ(seen[0].position, seen[1].position);
     EXPECT_EQ(seen[0].velocity, seen[1].velocity);
-    EXPECT_NE(count(seen[0], shared::STATE_FLUID), 400u); // something happened
+    EXPECT_GT(emitted, 100u);
 }
 
 TEST_F(EmissionTest, OfTwoWhoComeAtOnceToOnePlaceTheFirstIsBorn)
@@ -281,7 +286,8 @@ TEST_F(EmissionTest, OfTwoWhoComeAtOnceToOnePlaceTheFirstIsBorn)
     ParticleSet start;
     add_jet(its, start, {0.1f, 0.4f, 0.4f}, {2.0f, 0.0f, 0.0f}, 2, 100);
     for (std::size_t i = 1; i < its.emission.points.size(); ++i) { // all four within a third of a spacing
-        its.emission.points[i] = its.emission.points[0] + glm::vec3(0.0f, 0.0f, 0.1f * test_spacing * static_cast<float>(i));
+        its.emission.points[i] =
+            its.emission.points[0] + glm::vec3(0.0f, 0.0f, 0.1f * test_spacing * static_cast<float>(i));
     }
     sim::Simulation simulation(context(), start, its);
     simulation.advance(50); // 0.1 s: four layers
@@ -294,17 +300,18 @@ TEST_F(EmissionTest, OfTwoWhoComeAtOnceToOnePlaceTheFirstIsBorn)
     }
 }
 
-TEST_F(EmissionTest, StepsAreShortEnoughForWhoIsBornInThem)
+TEST_F(EmissionTest, StepsAreShortEnoughForWhoHasJustBeenBorn)
 {
     sim::SimulationSettings its = settings();
     its.params.adaptive_dt = 1;
     its.params.cfl_length = 0.4f * test_spacing;
     its.params.longest_dt = 5e-3f;
     its.params.longest_move = 0.5f * its.params.support_radius;
-    ParticleSet start = lattice_state({1, 1, 1}, glm::vec3(0.5f)); // falls, slowly yet
+    ParticleSet start = lattice_state({1, 1, 1}, glm::vec3(0.5f));        // falls, slowly yet
     add_jet(its, start, {0.1f, 0.4f, 0.4f}, {20.0f, 0.0f, 0.0f}, 1, 100); // 0.1 m in the longest step
+    its.emission.emitters[0].start = 0.05f;                               // when steps have grown to their longest
     sim::Simulation simulation(context(), start, its);
-    EXPECT_NO_THROW(simulation.advance_by(0.03));
+    EXPECT_NO_THROW(simulation.advance_by(0.08));
     EXPECT_GT(simulation.ledger().emitted, 8u);
 }
 

@@ -95,6 +95,8 @@ TEST_F(MeltingTest, LooksAreTheTwins)
     add_block(start, {8, 6, 8}, glm::vec3(0.2f, 0.0f, 0.3f), shared::STATE_SOLID);
     add_block(start, {3, 4, 8}, glm::vec3(0.2f, 0.35f, 0.3f), shared::STATE_SOLID); // its shadow
     add_block(start, {3, 3, 8}, glm::vec3(0.45f, 0.3f, 0.3f), shared::STATE_FLUID); // on it
+    add_block(start, {5, 1, 1}, glm::vec3(0.0f), shared::STATE_DEAD);               // an emitter's slots
+    its.melting->params.birth_enthalpy[0] = 4e5f;
     Random random(12);
     for (std::size_t i = 0; i < start.size(); ++i) {
         const bool solid = shared::particle_state(start.attributes[i]) == shared::STATE_SOLID;
@@ -277,7 +279,7 @@ TEST_F(MeltingTest, WaterFreezesToAColdPlateAndNowhereElse)
     EXPECT_EQ(simulation.enthalpy().back(), -60.0);
 }
 
-TEST_F(MeltingTest, RerunsAreBitIdentical)
+TEST_F(MeltingTest, RerunsAreBitIdenticalInAnyPortions)
 {
     sim::SimulationSettings its = settings(shared::SOLVER_DFSPH);
     its.melting->time_scale = 2e4;
@@ -292,7 +294,10 @@ TEST_F(MeltingTest, RerunsAreBitIdentical)
     std::vector<double> heat[2];
     for (int run = 0; run < 2; ++run) {
         sim::Simulation simulation(context(), start, its);
-        simulation.advance(400);
+        for (std::uint32_t portion = 1; simulation.step() < 400; ++portion) {
+            simulation.advance(
+                run == 0 ? 400 : std::min(portion % 7 + 1, static_cast<std::uint32_t>(400 - simulation.step())));
+        }
         seen[run] = simulation.download();
         heat[run] = simulation.enthalpy();
     }

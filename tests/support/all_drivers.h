@@ -27,13 +27,16 @@ shape = "block"
 min = [0, 0, 0]
 max = [0.2, 0.2, 0.8]
 viscosity = 0.1
-[[solid]] # melts
+[[solid]] # melts, and flow carries it off
 shape = "block"
 min = [0.28, 0, 0.2]
 max = [0.6, 0.28, 0.52]
 liquid = "water"
 viscosity = 0.1
 melts = true
+erodes = true
+erosion_threshold = 0.5
+erosion_rate = 20
 [[solid]] # crumbles
 shape = "block"
 min = [0.72, 0, 0.08]
