@@ -340,6 +340,10 @@ public:
             const shared::Ledger ledger = simulation->ledger();
             statistics.emitted = ledger.emitted;
             statistics.sunk = ledger.sunk;
+            if (simulation->wind() != nullptr && picked_up_ && statistics.time > time_) {
+                statistics.rate_wind = (simulation->picked_up() - *picked_up_) / (statistics.time - time_);
+            }
+            picked_up_ = simulation->picked_up();
             if (has_hydraulic(scene_)) {
                 statistics.deposited = simulation->deposited();
             }
@@ -380,6 +384,7 @@ private:
     bool warned_of_cap_ = false;
     bool warned_of_births_ = false;
     std::optional<std::array<double, 8>> freed_mass_; ///< kg, at the frame before
+    std::optional<double> picked_up_;                 ///< kg, likewise
     double time_ = 0.0;                               ///< s, of it
 };
 

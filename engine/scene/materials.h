@@ -24,7 +24,10 @@ struct Material {
     float temperature = 0.0f;    ///< degrees C, at the start
     bool melts = false;
     float absorptivity = 0.0f; ///< of the sun's power, of solids
-    Erodibility erosion{};     ///< of solids that flow erodes
+    bool wind_erodes = false;
+    SandProperties sand{};
+    float sand_grain = 0.0f; ///< m, of sand
+    Erodibility erosion{};   ///< of solids that flow erodes
 
     bool operator==(const Material&) const = default;
 };
@@ -98,6 +101,9 @@ inline SceneMaterials scene_materials(const Scene& scene)
         Material material = warm_material(body, true);
         material.melts = body.melts;
         material.absorptivity = heat ? body.absorptivity : 0.0f;
+        material.wind_erodes = body.wind_erodes;
+        material.sand = body.wind_erodes ? body.sand : SandProperties{};
+        material.sand_grain = body.wind_erodes ? body.erosion.grain_size.value_or(usual_sand_grain) : 0.0f;
         material.erosion = body.erosion.erodes ? body.erosion : Erodibility{};
         material.friction = body.friction;
         material.contact_angle = body.contact_angle;
