@@ -1277,13 +1277,18 @@ mutation "wind: it takes 10 % more than its flux" \
     'its.pick_up = 1.1f * static_cast<float>(bagnold' \
     conformance_tests 'SandTest.AFlatBedLosesItsFluxOverTheLengthOfAHop'
 mutation "wind: steep sand stays where it is" \
-    shaders/sim/slide.comp \
-    'length(its.slope) > sand.steepest' \
+    shaders/include/ground.glsl \
+    'length(plane) > steepest_ground' \
     'false' \
     conformance_tests 'SandTest.HeapsStandAtTheirAngleOfRepose'
+mutation "wind: what has come down stays where it is too steep" \
+    shaders/sim/alight.comp \
+    'down.way == WAY_NONE' \
+    'true' \
+    conformance_tests 'SandTest.StepsAndLooksAreTheTwins'
 mutation "wind: towers of sand stand" \
-    shaders/sim/slide.comp \
-    'slope > STEEPEST_STEP ||' \
+    shaders/include/ground.glsl \
+    'slope > steepest_step ||' \
     '' \
     conformance_tests 'SandTest.StepsAndLooksAreTheTwins'
 mutation "wind: a column's new top lies where the old one was" \

@@ -98,32 +98,38 @@ double next_height(const Settings& settings, const SandScene& scene, const Colum
     return ground_at(scene, texel).top + (leaves ? 0.0 : static_cast<double>(settings.params.spacing));
 }
 
-/// The way of a column's top of sand, shared::WAY_*.
-std::uint32_t way_down(const Settings& settings, const SandScene& scene, const glm::ivec2& here, std::uint32_t id,
-                       const shared::WindMaterial& sand)
-{
-    const Ground& its = ground_at(scene, here);
-    const bool on_steep_ground = glm::length(its.slope) > static_cast<double>(sand.steepest);
+/// The steepest way down.
+struct WayDown {
     std::uint32_t way = shared::WAY_NONE;
+    double drop = 0.0; ///< in spacings
+};
+
+/// From so high over a texel, where that is too steep for sand.
+WayDown way_down(const Settings& settings, const SandScene& scene, const glm::ivec2& texel, double height,
+                 std::uint32_t id, float steepest_ground, float steepest_step)
+{
+    const glm::dvec3& plane = ground_at(scene, texel).slope;
+    const bool on_steep_ground = glm::length(plane) > static_cast<double>(steepest_ground);
+    WayDown found;
     double steepest = 0.0;
     const std::uint32_t first = id * 2654435769u >> 29u;
     for (std::uint32_t turn = 0; turn < 8; ++turn) {
         std::uint32_t k = (first + turn) % 8;
         k += k >= shared::WAY_NONE ? 1 : 0;
         const glm::dvec2 along = glm::dvec2(k % 3, k / 3) - 1.0;
-        const double step = (its.top - ground_at(scene, neighbor_of(settings, scene, here, k)).top) /
+        const double drop = (height - ground_at(scene, neighbor_of(settings, scene, texel, k)).top) /
                             static_cast<double>(settings.params.spacing);
-        const double slope = step / glm::length(along);
+        const double slope = drop / glm::length(along);
         const bool downhill =
-            glm::dot(its.slope, along.x * glm::dvec3(scene.view.right) + along.y * glm::dvec3(scene.view.up)) < 0.0;
-        const bool slides = slope > static_cast<double>(shared::STEEPEST_STEP) ||
-                            (on_steep_ground && downhill && step > static_cast<double>(shared::LEAST_STEP));
+            glm::dot(plane, along.x * glm::dvec3(scene.view.right) + along.y * glm::dvec3(scene.view.up)) < 0.0;
+        const bool slides = slope > static_cast<double>(steepest_step) ||
+                            (on_steep_ground && downhill && drop > static_cast<double>(shared::LEAST_STEP));
         if (slides && slope > steepest + static_cast<double>(shared::EQUAL_STEP)) {
             steepest = slope;
-            way = k + (step > static_cast<double>(shared::HIGHEST_SLIDE) ? shared::WAY_FALLS : 0);
+            found = {k, drop};
         }
     }
-    return way;
+    return found;
 }
 
 glm::dvec3 air_velocity(const shared::WindParams& wind, double above_ground)
@@ -229,15 +235,28 @@ SandChanges look_at_sand(const Settings& settings, const SandScene& scene, State
         std::uint32_t& smallest = columns.claim[index_of(scene, texel)];
         smallest = std::min(smallest, id);
     };
+    const double d = static_cast<double>(settings.params.spacing);
     for (std::size_t i = 0; i < state.size(); ++i) {
+        const glm::ivec2 texel = here(i);
+        const std::uint32_t id = state.id[i];
+        const double top = ground_at(scene, texel).top;
         if (has_come_down(i)) {
-            claim(here(i), state.id[i]);
-        }
-        const std::size_t texel = index_of(scene, here(i));
-        if (slides && is_solid(i) && material(i).erodes != 0 && columns.top_id[texel] == state.id[i]) {
-            columns.way[texel] = way_down(settings, scene, here(i), state.id[i], material(i));
-            if (columns.way[texel] < shared::WAY_TAKEN && columns.way[texel] != shared::WAY_NONE) {
-                claim(end_of_way(settings, scene, here(i), columns.way[texel]), state.id[i]);
+            const WayDown down =
+                way_down(settings, scene, texel, top + d, id, shared::ANY_SLOPE, shared::STEEPEST_STEP + 1.0f);
+            if (down.way == shared::WAY_NONE) {
+                claim(texel, id);
+            } else { // rolls on
+                state.position[i] =
+                    place_in_column(settings, scene, neighbor_of(settings, scene, texel, down.way), top + d);
+                sand.rests[id] = 0;
+                ++changes.rolled;
+            }
+        } else if (slides && is_solid(i) && material(i).erodes != 0 && columns.top_id[index_of(scene, texel)] == id) {
+            const WayDown down = way_down(settings, scene, texel, top, id, material(i).steepest, shared::STEEPEST_STEP);
+            const bool falls = down.drop > static_cast<double>(shared::HIGHEST_SLIDE);
+            columns.way[index_of(scene, texel)] = down.way + (falls ? shared::WAY_FALLS : 0);
+            if (down.way != shared::WAY_NONE && !falls) {
+                claim(neighbor_of(settings, scene, texel, down.way), id);
             }
         }
     }

@@ -42,6 +42,7 @@ struct SandChanges {
     std::size_t picked_up = 0; ///< by the wind
     std::size_t fell = 0;      ///< off a slope
     std::size_t slid = 0;      ///< by a spacing
+    std::size_t rolled = 0;    ///< on, where it came down
     std::size_t landed = 0;
 };
 

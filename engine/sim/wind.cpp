@@ -28,7 +28,7 @@ namespace {
 
 constexpr double air_viscosity = 1.8e-5;    // Pa s
 constexpr double least_hop = 4.0;           // spacings
-constexpr double fastest_launch = 100.0;    // m/s
+constexpr double fastest_launch = 1000.0;   // m/s
 constexpr double first_slide_degrees = 1.0; // beyond the angle of repose
 constexpr std::uint32_t nobody = 0xffffffffu;
 
@@ -238,8 +238,8 @@ void Wind::record_changes(gpu::Commands& commands, const gpu::Buffer& params, co
                        read_write(particles.velocity), read_write(changes), read(top_id_), write(way_)});
     commands.dispatch(alight_, particles.moving, gpu::NoPush{},
                       {read(params), read(params_buffer_), read(from_above_.params()), read(ground_),
-                       read(particles.id), read(particles.attributes), read(particles.position), read(rests_),
-                       read_write(claim_)});
+                       read(particles.id), read(particles.attributes), read_write(particles.position),
+                       read_write(rests_), read_write(claim_)});
     slid_for_ += seconds;
     if (slid_for_ >= slide_time_) {
         slid_for_ = 0.0;

@@ -47,7 +47,7 @@ struct WindSettings {
 [[nodiscard]] double response_time(const Sand& sand, double air_density, double gravity);
 
 /// For the passes. `params` with gravity and domain filled in. Throws Input where there is no gravity or
-/// no direction, or where a hop is shorter than four spacings, or longer than one that is launched at 100 m/s.
+/// no direction, or where a hop is shorter than four spacings, or longer than one that is launched at 1000 m/s.
 [[nodiscard]] shared::WindParams wind_params(const WindSettings& settings, const shared::SphParams& params);
 
 /// The map that the ground is seen on from above, and the one that shows what the wind sees.

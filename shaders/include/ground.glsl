@@ -36,6 +36,36 @@ ivec2 neighbor_of(ivec2 texel, uint k)
                  inside(there.y, int(view.height), is_periodic_along(view.up)));
 }
 
+struct WayDown {
+    uint way;   // WAY_NONE, or k of neighbor_of
+    float drop; // in spacings
+};
+
+// The steepest way down from so high over a texel where that is too steep. Two measures of steep: the plane through the columns
+// around, and the step to a single one, in spacings.
+WayDown way_down(ivec2 texel, float height, uint its_id, float steepest_ground, float steepest_step)
+{
+    vec3 plane = ground_at(texel).slope;
+    bool on_steep_ground = length(plane) > steepest_ground;
+    WayDown found = WayDown(WAY_NONE, 0.0);
+    float steepest = 0.0; // drop over distance
+    uint first = its_id * 2654435769u >> 29u; // of equal ways: no side is preferred
+    for (uint turn = 0u; turn < 8u; ++turn) {
+        uint k = (first + turn) % 8u;
+        k += k >= WAY_NONE ? 1u : 0u;
+        vec2 along = vec2(k % 3u, k / 3u) - 1.0;
+        float drop = (height - ground_at(neighbor_of(texel, k)).top) / params.spacing;
+        float slope = drop / length(along);
+        bool downhill = dot(plane, along.x * view.right + along.y * view.up) < 0.0;
+        bool slides = slope > steepest_step || (on_steep_ground && downhill && drop > LEAST_STEP);
+        if (slides && slope > steepest + EQUAL_STEP) {
+            steepest = slope;
+            found = WayDown(k, drop);
+        }
+    }
+    return found;
+}
+
 // Where a particle in the middle of a column is, so many m above the floor: in the domain.
 vec3 place_in_column(ivec2 texel, float height)
 {

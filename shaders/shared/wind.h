@@ -27,6 +27,7 @@ SHARED_CONSTANT float REATTACHMENT_SLOPE = 1.0f / 6.0f;
 // In spacings.
 SHARED_CONSTANT int GROUND_REACH = 3;         // texels of a spacing on each side, to which the ground's plane is fitted
 SHARED_CONSTANT float STEEPEST_STEP = 1.5f;   // between neighboring columns, of sand at any angle of repose: no towers
+SHARED_CONSTANT float ANY_SLOPE = 1e30f;      // of the ground: nothing is too steep
 SHARED_CONSTANT float LEAST_STEP = 0.9f;      // down which a grain slides: it is to end no higher than it was
 SHARED_CONSTANT float HIGHEST_SLIDE = 2.5f;   // a grain that is to come down by more than so falls
 SHARED_CONSTANT float EQUAL_STEP = 1e-3f;     // steps that differ by less are the same: the first of them is taken

@@ -150,6 +150,7 @@ TEST_F(SandTest, StepsAndLooksAreTheTwins)
             sum.picked_up += changes.picked_up;
             sum.fell += changes.fell;
             sum.slid += changes.slid;
+            sum.rolled += changes.rolled;
             sum.landed += changes.landed;
             look_around(twin);
         }
@@ -171,6 +172,7 @@ TEST_F(SandTest, StepsAndLooksAreTheTwins)
     EXPECT_GT(sum.picked_up, 50u);
     EXPECT_GT(sum.fell, 10u);
     EXPECT_GT(sum.slid, 100u);
+    EXPECT_GT(sum.rolled, 20u);
     EXPECT_GT(sum.landed, 50u);
     EXPECT_GT(flying, 100u);
 }
@@ -374,9 +376,9 @@ TEST_F(SandTest, HeapsStandAtTheirAngleOfRepose)
         its.params.periodic_mask = 0x30;
         ParticleSet start;
         its.params.dt = 0.02f;
-        add_block(start, {28, 34, 8}, glm::vec3(1.8f, 0.0f, 0.0f), jitter);
+        add_block(start, {44, 22, 8}, glm::vec3(1.4f, 0.0f, 0.0f), jitter);
         sim::Simulation simulation(context(), start, its);
-        simulation.advance(1400); // 28 s
+        simulation.advance(1000); // 20 s
         const ParticleSet rest = simulation.download();
         EXPECT_EQ(count(rest, shared::STATE_SOLID), start.size());
         float highest = 0.0f;
