@@ -215,11 +215,11 @@ void set_dune(Scene& scene, const MeshShape& mesh, const Model& model, double si
     scene.wind.friction_velocity = 0.5f * std::max(1.0f, speed / 3.0f);
     scene.wind.roughness_length = std::min(1e-3f * size, 1.0f);
     scene.wind.hop_length = std::max(0.3f * size, 5.0f * scene.particles.spacing);
-    // Of flat ground a layer as thick as a ninth of the model is gone in the time in which it falls by twice its size.
+    // Of flat ground as much is gone in a frame at any size.
     const double flux = sim::bagnold_flux({.friction_velocity = static_cast<double>(scene.wind.friction_velocity)},
                                           {.grain_size = static_cast<double>(*sand.erosion.grain_size)}, 9.81);
     const double lost = flux / (static_cast<double>(scene.wind.hop_length) * 1600.0); // m/s
-    scene.wind.time_scale = static_cast<float>(0.16 * std::sqrt(similarity) / lost);
+    scene.wind.time_scale = static_cast<float>(0.06 * std::sqrt(similarity) / lost);
     scene.solids.push_back(sand);
 }
 
