@@ -344,7 +344,7 @@ public:
                 statistics.rate_wind = (simulation->picked_up() - *picked_up_) / (statistics.time - time_);
             }
             picked_up_ = simulation->picked_up();
-            if (has_hydraulic(scene_)) {
+            if (has_hydraulic(scene_) || has_sand(scene_)) {
                 statistics.deposited = simulation->deposited();
             }
             if (const auto heat = simulation->heat_statistics(particles)) {
