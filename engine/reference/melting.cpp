@@ -18,7 +18,7 @@ double fluid_filling(const Settings& settings, const State& state, const glm::dv
     double sum = 0.0;
     for (std::size_t j = 0; j < state.size(); ++j) {
         const double q = glm::distance(x, state.position[j]) / support_radius;
-        if (!shared::is_still(state.attributes[j]) && q < 1.0) {
+        if (!is_boundary(state, j) && q < 1.0) {
             sum += state.weight[j] * density_shape(settings.kernel, q);
         }
     }
