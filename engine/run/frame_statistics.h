@@ -55,6 +55,7 @@ struct FrameStatistics {
     std::optional<double> rate_melt;        ///< kg/s that melted, net, mean since the frame before; empty in the first
     std::optional<double> rate_dissolve;    ///< likewise of what fronts have freed
     std::optional<double> rate_hydraulic;   ///< likewise of what flow has carried off, less what has settled
+    std::optional<std::uint32_t> fragments; ///< loose pieces of solids; empty where none can break off
     std::optional<std::uint64_t> deposited; ///< particles of sediment that became solid again, since the start
 };
 

@@ -23,8 +23,10 @@ struct Material {
     ThermalProperties thermal{}; ///< where heat is followed
     float temperature = 0.0f;    ///< degrees C, at the start
     bool melts = false;
-    float absorptivity = 0.0f; ///< of the sun's power, of solids
-    Erodibility erosion{};     ///< of solids that flow erodes
+    float absorptivity = 0.0f;                ///< of the sun's power, of solids
+    Erodibility erosion{};                    ///< of solids that flow erodes
+    SolidAnchor anchor = SolidAnchor::Ground; ///< of solids
+    float sliding_friction = 0.0f;            ///< mu, of solids
 
     bool operator==(const Material&) const = default;
 };
@@ -102,6 +104,8 @@ inline SceneMaterials scene_materials(const Scene& scene)
         material.friction = body.friction;
         material.contact_angle = body.contact_angle;
         material.solid_color = body.solid_color;
+        material.anchor = body.anchor;
+        material.sliding_friction = body.sliding_friction;
         result.of_solid.push_back(index_of(material));
     }
     for (const EmitterBody& body : scene.emitters) {

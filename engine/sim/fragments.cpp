@@ -24,10 +24,11 @@ namespace {
 
 constexpr std::uint32_t rounds_per_submission = 4;
 
-/// Of passes that look for the forces of moving fluid alone.
-FluidOptions without_still(FluidOptions options)
+/// Of passes that look for the forces of moving fluid alone. Pressure of position based fluids is found like a force.
+FluidOptions of_moving(FluidOptions options)
 {
     options.still = false;
+    options.solver = options.solver == shared::SOLVER_PBF ? shared::SOLVER_WCSPH : options.solver;
     return options;
 }
 
@@ -145,7 +146,7 @@ Fragments::Fragments(const gpu::Context& context, const FluidOptions& options, c
       loosen_(context, "piece_loosen", sim_piece_loosen_comp),
       touch_(context, "rigid_touch", sim_rigid_touch_comp, fluid_constants(context.info(), options)),
       step_(context, "rigid_step", sim_rigid_step_comp),
-      forces_(context, without_still(options), all_solid(pool_), BoundaryForces::Reach::Moving),
+      forces_(context, of_moving(options), all_solid(pool_), BoundaryForces::Reach::Moving),
       rigid_(gpu::make_buffer<shared::RigidParams>(context, 1, "rigid params")),
       label_(gpu::make_buffer<std::uint32_t>(context, pool_, "piece label")),
       pieces_(gpu::make_buffer<shared::Piece>(context, pool_, "pieces")),
