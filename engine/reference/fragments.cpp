@@ -87,7 +87,7 @@ private:
 
 bool touches_wall(const shared::SphParams& params, const glm::dvec3& x)
 {
-    const double reach = static_cast<double>(shared::WALL_BOND_DISTANCE) * static_cast<double>(params.spacing);
+    const double reach = static_cast<double>(shared::BOND_DISTANCE) * static_cast<double>(params.spacing);
     bool found = false;
     for_each_wall(params, x, [&](double distance, const glm::dvec3&) { found = found || distance < reach; });
     return found;

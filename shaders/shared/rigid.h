@@ -11,10 +11,9 @@
 
 SHARED_BEGIN
 
-// Spacings. As far as fluid freezes to a solid and sediment settles on one, so that these are of one piece with it.
+// Spacings, also to walls and colliders. As far as fluid freezes to a solid and sediment settles on one, so that these are of one
+// piece with it.
 SHARED_CONSTANT float BOND_DISTANCE = 1.5f;
-// Spacings to a wall, as far as sediment settles on one: a lattice begins half a spacing off it.
-SHARED_CONSTANT float WALL_BOND_DISTANCE = 1.0f;
 
 SHARED_CONSTANT uint LEAST_PIECE = 8u; // particles: a loose piece of fewer is none, it falls to fluid or dust
 

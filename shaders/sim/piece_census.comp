@@ -22,7 +22,7 @@ layout(set = 0, binding = 10, scalar) buffer Pieces { Piece pieces[]; };      //
 
 bool touches_wall(vec3 x)
 {
-    vec3 reach = vec3(WALL_BOND_DISTANCE * params.spacing);
+    vec3 reach = vec3(BOND_DISTANCE * params.spacing);
     uvec3 low = uvec3(lessThan(x - params.domain_min, reach));
     uvec3 high = uvec3(lessThan(params.domain_max - x, reach));
     uvec3 near = low | high << 1u;
