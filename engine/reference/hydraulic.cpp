@@ -22,7 +22,7 @@ Flow flow_at(const Settings& settings, const State& state, const glm::dvec3& x)
     double sum = 0.0;
     for (std::size_t j = 0; j < state.size(); ++j) {
         const double q = glm::distance(x, state.position[j]) / support_radius;
-        if (!shared::is_still(state.attributes[j]) && q < 1.0) {
+        if (!is_boundary(state, j) && q < 1.0) {
             const double share = state.weight[j] * density_shape(settings.kernel, q);
             momentum += share * state.velocity[j];
             sum += share;
@@ -41,7 +41,8 @@ double damage_rate(const Settings& settings, const shared::HydraulicParams& hydr
     const double spacing = static_cast<double>(settings.params.spacing);
     const glm::dvec3 normal(surface);
     const Flow flow = flow_at(settings, state, state.position[i] + spacing * normal);
-    const double along = glm::length(flow.velocity - glm::dot(flow.velocity, normal) * normal);
+    const glm::dvec3 relative = flow.velocity - state.velocity[i];
+    const double along = glm::length(relative - glm::dot(relative, normal) * normal);
     const double stress = static_cast<double>(hydraulic.consistency) *
                           std::pow(along / spacing, static_cast<double>(hydraulic.flow_exponent));
     const double excess = stress / strength - static_cast<double>(hydraulic.threshold[material]);

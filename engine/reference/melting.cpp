@@ -18,7 +18,7 @@ double fluid_filling(const Settings& settings, const State& state, const glm::dv
     double sum = 0.0;
     for (std::size_t j = 0; j < state.size(); ++j) {
         const double q = glm::distance(x, state.position[j]) / support_radius;
-        if (!shared::is_still(state.attributes[j]) && q < 1.0) {
+        if (!is_boundary(state, j) && q < 1.0) {
             sum += state.weight[j] * density_shape(settings.kernel, q);
         }
     }
@@ -89,21 +89,30 @@ std::size_t freeze(const Settings& settings, State& state, std::span<const doubl
 {
     const double reach = static_cast<double>(shared::FREEZING_DISTANCE) * static_cast<double>(settings.params.spacing);
     std::vector<std::size_t> frozen;
+    std::vector<bool> loose(state.size(), false); // frozen to what is loose
     for (std::size_t i = 0; i < state.size(); ++i) {
         if (shared::particle_state(state.attributes[i]) != shared::STATE_FLUID || enthalpy[state.id[i]] > 0.0) {
             continue;
         }
-        for (std::size_t j = 0; j < state.size(); ++j) {
-            if (shared::is_still(state.attributes[j]) && !shared::is_gone(state.attributes[j]) &&
-                glm::distance(state.position[i], state.position[j]) < reach) {
-                frozen.push_back(i);
-                break;
+        const auto is_near = [&](const auto& is_one) {
+            for (std::size_t j = 0; j < state.size(); ++j) {
+                if (is_one(state.attributes[j]) && glm::distance(state.position[i], state.position[j]) < reach) {
+                    return true;
+                }
             }
+            return false;
+        };
+        const bool at_still =
+            is_near([](std::uint32_t each) { return shared::is_still(each) && !shared::is_gone(each); });
+        loose[i] = !at_still && is_near(shared::is_loose);
+        if (at_still || loose[i]) {
+            frozen.push_back(i);
         }
     }
     for (const std::size_t i : frozen) {
-        state.attributes[i] = shared::with_state(state.attributes[i], shared::STATE_SOLID);
-        state.velocity[i] = glm::dvec3(0.0);
+        state.attributes[i] =
+            shared::with_state(state.attributes[i], shared::STATE_SOLID) | (loose[i] ? shared::FLAG_LOOSE : 0u);
+        state.velocity[i] = loose[i] ? state.velocity[i] : glm::dvec3(0.0);
     }
     return frozen.size();
 }

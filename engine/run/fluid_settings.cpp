@@ -13,6 +13,7 @@
 #include "particles/sph_kernel.h"
 #include "run/dust_params.h"
 #include "run/emission_settings.h"
+#include "run/fragment_settings.h"
 #include "run/heat_settings.h"
 #include "run/hydraulic_settings.h"
 #include "run/plane_scene.h"
@@ -361,6 +362,7 @@ FluidSettings fluid_settings(const Scene& any_scene, const ParticleSet& particle
     settings.simulation.melting = melting_settings(scene, particles);
     settings.simulation.wind = wind_settings(scene);
     settings.simulation.hydraulic = hydraulic_settings(scene, particles);
+    settings.simulation.fragments = fragment_settings(scene);
     options.still = std::ranges::any_of(particles.attributes, shared::is_boundary);
     options.colliders = options.capillarity && options.still;
     options.xsph = params.xsph > 0.0f;

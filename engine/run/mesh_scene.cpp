@@ -136,6 +136,7 @@ void set_vanish(Scene& scene, const MeshShape& mesh, const Model& model, double 
     solid.shape = mesh;
     std::get<MeshShape>(solid.shape).position.y = 0.5f * model.extent.y + 0.25f * scene.particles.spacing;
     solid.becomes = SolidBecomes::Dust;
+    solid.anchor = SolidAnchor::All; // what hangs in the air crumbles there
     solid.solid_color = {0.55f, 0.42f, 0.34f};
     solid.dissolve = {.speed = 0.4f * speed,
                       .start = 0.3f * speed,

@@ -339,6 +339,9 @@ public:
             statistics.neighbors_mean = mean_neighbors(*simulation, statistics.frame, warned_of_coincident_);
             const shared::Ledger ledger = simulation->ledger();
             statistics.emitted = ledger.emitted;
+            if (const sim::Fragments* fragments = simulation->fragments()) {
+                statistics.fragments = fragments->bodies();
+            }
             statistics.sunk = ledger.sunk;
             if (simulation->wind() != nullptr && picked_up_ && statistics.time > time_) {
                 statistics.rate_wind = (simulation->picked_up() - *picked_up_) / (statistics.time - time_);

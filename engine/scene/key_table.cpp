@@ -471,6 +471,8 @@ std::vector<SolidKey> make_solid_keys()
         k("strength_contrast", FIELD(erosion.strength_contrast), "", Range{1, 1000}, "noise makes its strongest parts so many times as strong as usual, and divides by it the strength of the weakest; strength multiplies the threshold and divides the rate; 1: all are alike"),
         k("strength_grain", FIELD(erosion.strength_grain), "m", Range{1e-5, 1e4}, "size of that noise's coarsest lumps or layers"),
         k("strength_layers", FIELD(erosion.strength_layers), "", PLACE, "direction across layers (strata), of any length but 0; auto: lumps"),
+        choice<SolidBody>("anchor", FIELD(anchor), {{"ground", SolidAnchor::Ground}, {"all", SolidAnchor::All}, {"none", SolidAnchor::None}}, "what holds it in its place: the walls and colliders that it touches, so that pieces that are no longer connected to them break off and move as rigid bodies; all of itself, so that none ever does; nothing, so that it moves from the start, unless another solid holds it"),
+        k("sliding_friction", FIELD(sliding_friction), "", Range{0, 100}, "Coulomb's coefficient, of its loose pieces on anything"),
         k("color", FIELD(solid_color), "linear RGB", UNIT, "of the solid, in render.color = \"material\"; gray in the other modes"),
         k("fluid_color", FIELD(color), "linear RGB", UNIT, "of the fluid"),
     }), thermal_keys<SolidBody>(ITSELF));

@@ -26,8 +26,10 @@ struct Material {
     float absorptivity = 0.0f; ///< of the sun's power, of solids
     bool wind_erodes = false;
     SandProperties sand{};
-    float sand_grain = 0.0f; ///< m, of sand
-    Erodibility erosion{};   ///< of solids that flow erodes
+    float sand_grain = 0.0f;                  ///< m, of sand
+    Erodibility erosion{};                    ///< of solids that flow erodes
+    SolidAnchor anchor = SolidAnchor::Ground; ///< of solids
+    float sliding_friction = 0.0f;            ///< mu, of solids
 
     bool operator==(const Material&) const = default;
 };
@@ -108,6 +110,8 @@ inline SceneMaterials scene_materials(const Scene& scene)
         material.friction = body.friction;
         material.contact_angle = body.contact_angle;
         material.solid_color = body.solid_color;
+        material.anchor = body.wind_erodes ? SolidAnchor::All : body.anchor; // sand is not one piece
+        material.sliding_friction = body.sliding_friction;
         result.of_solid.push_back(index_of(material));
     }
     for (const EmitterBody& body : scene.emitters) {

@@ -160,6 +160,9 @@ struct SandProperties {
 
 enum class SolidBecomes { Fluid, Dust };
 
+/// What holds a solid in its place: the walls and colliders that it touches, all of itself, or nothing.
+enum class SolidAnchor { Ground, All, None };
+
 /// How flow carries a solid off (shared/hydraulic.h), and where the solid is stronger or weaker.
 struct Erodibility {
     bool erodes = false;
@@ -175,8 +178,8 @@ struct Erodibility {
     bool operator==(const Erodibility&) const = default;
 };
 
-/// A solid that stands still and may turn into fluid, or crumble into dust. What FluidBody says is of that fluid; its
-/// velocities are not used.
+/// A solid that stands still while something holds it, and may turn into fluid, or crumble into dust. What FluidBody
+/// says is of that fluid; its velocities are not used.
 struct SolidBody : FluidBody {
     float friction = 0.0f;                      ///< of fluid against it, Pa s; 0 is free slip
     float contact_angle = 90.0f;                ///< degrees, of fluid with tension at it
@@ -188,6 +191,8 @@ struct SolidBody : FluidBody {
     bool wind_erodes = false;  ///< sand: the wind takes it, and it slides where it is too steep
     SandProperties sand;
     Erodibility erosion;
+    SolidAnchor anchor = SolidAnchor::Ground;
+    float sliding_friction = 0.5f; ///< mu, Coulomb's, of what breaks off it on anything
 };
 
 /// A round nozzle; it points along the emitter's velocity.
@@ -342,6 +347,13 @@ struct Scene {
     CameraSettings camera;
     RenderSettings render;
 };
+
+/// Whether pieces of solids may break off and move.
+[[nodiscard]] inline bool has_fragments(const Scene& scene)
+{
+    return std::ranges::any_of(
+        scene.solids, [](const SolidBody& body) { return body.anchor != SolidAnchor::All && !body.wind_erodes; });
+}
 
 /// Whether heat is followed: something melts, or has a temperature of its own.
 [[nodiscard]] inline bool has_heat(const Scene& scene)

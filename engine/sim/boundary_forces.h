@@ -18,8 +18,12 @@ struct Fluid;
 /// exert on it, so that fluid and boundary together keep their momentum.
 class BoundaryForces {
 public:
+    /// Whose forces are summed up: of all boundary particles, or of those among the moving particles alone.
+    enum class Reach { All, Moving };
+
     /// attributes: of the particles by id. Throws Device when its buffer does not fit.
-    BoundaryForces(const gpu::Context& context, const FluidOptions& options, std::span<const std::uint32_t> attributes);
+    BoundaryForces(const gpu::Context& context, const FluidOptions& options, std::span<const std::uint32_t> attributes,
+                   Reach reach = Reach::All);
 
     /// After the forces of a step, with the velocities that these saw: friction, and pressure where it is not solved
     /// for.
@@ -36,6 +40,9 @@ public:
     [[nodiscard]] const gpu::Buffer& reactions() const { return reactions_; }
 
 private:
+    [[nodiscard]] shared::ReactionPush push(const Fluid& fluid) const;
+
+    Reach reach_;
     std::uint32_t first_id_ = 0;
     std::uint32_t count_ = 0;
     gpu::Kernel force_;

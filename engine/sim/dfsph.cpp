@@ -55,9 +55,7 @@ void Dfsph::record_step(gpu::Commands& commands, const Fluid& fluid, std::uint32
         record_reactions(commands, fluid, true);
     }
     record_solve(commands, fluid, shared::SOLVE_DENSITY);
-    if (fluid.boundary_forces != nullptr) {
-        fluid.boundary_forces->record_impulses(commands, fluid, warm_start_);
-    }
+    record_reaction_impulses(commands, fluid, warm_start_);
     if (fluid.shifting != nullptr) {
         fluid.shifting->record(commands, fluid.kernels, fluid.params, fluid.particles, fluid.grid);
     }

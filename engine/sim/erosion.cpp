@@ -23,7 +23,7 @@ void Erosion::record_look(gpu::Commands& commands, const gpu::Buffer& params, co
 {
     const gpu::Scope scope(commands, "erosion");
     commands.fill(changes_, 0);
-    commands.dispatch(front_, particles.count - particles.moving, time,
+    commands.dispatch(front_, particles.count, time,
                       {read(params), read(particles.id), read(release_time_), read_write(particles.attributes),
                        read_write(particles.velocity), read_write(particles.position), read_write(changes_)});
     commands.dispatch(count_dead_, particles.moving, gpu::NoPush{},

@@ -33,18 +33,32 @@ void Exposure::record_start(gpu::Commands& commands) const
 void Exposure::record(gpu::Commands& commands, const gpu::Buffer& params, const ParticleBuffers& particles,
                       const NeighborGrid& grid, std::uint32_t first, std::uint32_t count) const
 {
-    using gpu::read;
-    const gpu::Scope scope(commands, "exposure");
     const std::uint32_t still = particles.count - particles.moving;
     const std::uint32_t end = first + std::min(count, still - std::min(first, still));
+    record_range(commands, params, particles, grid, particles.moving + first, particles.moving + end, false);
+}
+
+void Exposure::record_with_loose(gpu::Commands& commands, const gpu::Buffer& params, const ParticleBuffers& particles,
+                                 const NeighborGrid& grid) const
+{
+    record_range(commands, params, particles, grid, 0, particles.count, true);
+}
+
+void Exposure::record_range(gpu::Commands& commands, const gpu::Buffer& params, const ParticleBuffers& particles,
+                            const NeighborGrid& grid, std::uint32_t first, std::uint32_t end, bool any_loose) const
+{
+    using gpu::read;
+    const gpu::Scope scope(commands, "exposure");
     for (; first < end; first += particles_a_dispatch) {
         const std::uint32_t portion = std::min(end - first, particles_a_dispatch);
         shared::ExposurePush push = scales_;
         push.first = first;
         push.count = portion;
+        push.any_loose = any_loose ? 1 : 0;
         commands.dispatch(kernel_, portion, push,
                           {read(params), read(grid.cell_start), read(particles.position), read(particles.position),
-                           read(particles.id), read(particles.attributes), gpu::write(exposure_)});
+                           read(particles.id), read(particles.attributes), gpu::write(exposure_),
+                           read(particles.velocity), read(particles.velocity)});
     }
 }
 

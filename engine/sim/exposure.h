@@ -27,6 +27,9 @@ public:
     /// that of others as it was. Nothing to do where nobody is still.
     void record(gpu::Commands& commands, const gpu::Buffer& params, const ParticleBuffers& particles,
                 const NeighborGrid& grid, std::uint32_t first = 0, std::uint32_t count = ~0u) const;
+    /// The same where some solids are loose, and lie among the moving ones: of all.
+    void record_with_loose(gpu::Commands& commands, const gpu::Buffer& params, const ParticleBuffers& particles,
+                           const NeighborGrid& grid) const;
 
     /// By id: vec4, the normal and in w the exposed area in m^2 (in the plane m); zero of those inside. Of a particle
     /// that is no longer solid it is what it was last.
@@ -37,6 +40,10 @@ public:
     [[nodiscard]] std::uint64_t device_bytes() const { return exposure_.size(); }
 
 private:
+    /// Of the particles first .. end - 1 in their order.
+    void record_range(gpu::Commands& commands, const gpu::Buffer& params, const ParticleBuffers& particles,
+                      const NeighborGrid& grid, std::uint32_t first, std::uint32_t end, bool any_loose) const;
+
     const gpu::Context* context_;
     std::uint32_t pool_;
     gpu::Kernel kernel_;

@@ -79,7 +79,7 @@ void Hydraulic::record_changes(gpu::Commands& commands, const gpu::Buffer& param
                       {read(params), read(grid.cell_start), read(params_), read(particles.id), read(particles.position),
                        read_write(damage_), read_write(particles.attributes), read_write(particles.velocity),
                        gpu::write(release_time), read_write(changes)});
-    commands.dispatch(detach_, particles.count - particles.moving, static_cast<float>(time),
+    commands.dispatch(detach_, particles.count, static_cast<float>(time),
                       {read(params), read(params_), read(particles.id), read_write(damage_),
                        read_write(particles.attributes), read_write(particles.velocity), gpu::write(release_time),
                        read_write(changes)});

@@ -83,14 +83,15 @@ void Melting::record_heat(gpu::Commands& commands, const FluidKernels& kernels, 
 
 void Melting::record_changes(gpu::Commands& commands, const gpu::Buffer& params, const ParticleBuffers& particles,
                              const NeighborGrid& grid, const gpu::Buffer& release_time, const gpu::Buffer& changes,
-                             float time) const
+                             float time, const gpu::Buffer* body_of) const
 {
     const gpu::Scope scope(commands, "melt and freeze");
-    commands.dispatch(freeze_, particles.moving, gpu::NoPush{},
+    commands.dispatch(freeze_, particles.moving, body_of != nullptr ? 1u : 0u,
                       {read(params), read(grid.cell_start), read(params_), read(particles.id), read(heat_.enthalpy()),
                        read(particles.position), read_write(particles.attributes), read_write(particles.velocity),
-                       write(release_time), read_write(changes)});
-    commands.dispatch(melt_, particles.count - particles.moving, time,
+                       write(release_time), read_write(changes),
+                       read(body_of != nullptr ? *body_of : heat_.enthalpy())});
+    commands.dispatch(melt_, particles.count, time,
                       {read(params), read(heat_.params()), read(params_), read(particles.id), read(heat_.enthalpy()),
                        read_write(particles.attributes), read_write(particles.velocity), write(release_time),
                        read_write(changes)});

@@ -42,9 +42,10 @@ public:
 
     /// Solids melt and fluid freezes at `time` (s), counted in `changes`, shared::PoolChanges: they lie among the
     /// others yet. When a solid melts is noted in release_time, by id.
+    /// body_of: of loose solids (sim/fragments), null where there are none.
     void record_changes(gpu::Commands& commands, const gpu::Buffer& params, const ParticleBuffers& particles,
                         const NeighborGrid& grid, const gpu::Buffer& release_time, const gpu::Buffer& changes,
-                        float time) const;
+                        float time, const gpu::Buffer* body_of = nullptr) const;
 
     /// s of motion, the longest from one look to the next: in it sun and air melt a fortieth of a particle, for
     /// what a particle gets beyond its latent heat is lost to the next one. Infinite where neither melts anything.

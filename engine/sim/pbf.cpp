@@ -61,6 +61,9 @@ void Pbf::record_step(gpu::Commands& commands, const Fluid& fluid, std::uint32_t
     record_accelerations(commands, fluid);
     record_solve(commands, fluid);
     record_finish(commands, fluid, step);
+    if (fluid.forces_on_loose != nullptr) { // of the pressures that the moves stand for
+        fluid.forces_on_loose->record_forces(commands, fluid);
+    }
 }
 
 void Pbf::record_predict(gpu::Commands& commands, const Fluid& fluid)
@@ -137,7 +140,7 @@ void Pbf::record_finish(gpu::Commands& commands, const Fluid& fluid, std::uint32
     const ParticleBuffers& particles = fluid.particles;
     const gpu::Scope scope(commands, "finish");
     commands.dispatch(finish_, particles.moving, step,
-                      {read(fluid.params), read(particles.id), read(particles.interaction), read(move_),
+                      {read(fluid.params), read(particles.id), read_write(particles.interaction), read(move_),
                        read_write(particles.attributes), read_write(particles.position), read_write(particles.velocity),
                        read_write(particles.pressure), read_write(fluid.status), read_write(solves_)});
 }

@@ -110,7 +110,8 @@ Simulation::Simulation(const gpu::Context& context, const ParticleSet& particles
     if (settings.options.capillarity) {
         capillarity_.emplace(context, settings.options, params_.pool_count);
     }
-    if (particles.release_time.empty() && (settings.melting || settings.hydraulic || !settings.emission.empty())) {
+    if (particles.release_time.empty() &&
+        (settings.melting || settings.hydraulic || settings.fragments || !settings.emission.empty())) {
         throw std::logic_error("Simulation: where particles may come or change, they have release times");
     }
     if (!particles.release_time.empty()) {
@@ -130,6 +131,9 @@ Simulation::Simulation(const gpu::Context& context, const ParticleSet& particles
             hydraulic_.emplace(context, options_, *settings.hydraulic, params_.pool_count);
             hydraulic_->record_start(*commands_);
         }
+        if (settings.fragments) {
+            fragments_.emplace(context, options_, params_, *settings.fragments);
+        }
         if (settings.melting || settings.hydraulic || settings.wind) {
             exposure_.emplace(context, options_, params_.pool_count);
         }
@@ -142,6 +146,10 @@ Simulation::Simulation(const gpu::Context& context, const ParticleSet& particles
         }
     }
     solver_->record_start(*commands_, fluid());
+    commands_->submit();
+    commands_->wait();
+    loosen_pieces(0.0);
+    commands_->begin();
     record_surface(*commands_);
     commands_->submit();
     commands_->wait();
@@ -186,7 +194,11 @@ void Simulation::record_surface(gpu::Commands& commands) const
 {
     if (exposure_) {
         exposure_->record_start(commands);
-        exposure_->record(commands, params_buffer_, particles_, grid_);
+        if (fragments_ && fragments_->bodies() > 0) {
+            exposure_->record_with_loose(commands, params_buffer_, particles_, grid_);
+        } else {
+            exposure_->record(commands, params_buffer_, particles_, grid_);
+        }
     }
     if (melting_) {
         melting_->record_surface(commands, params_buffer_, particles_, *exposure_);
@@ -202,6 +214,7 @@ void Simulation::erode(double time)
         return;
     }
     gpu::Commands& commands = *erosion_commands_;
+    const bool has_loose = fragments_ && fragments_->bodies() > 0;
     const double seconds = time - looked_at_;
     looked_at_ = time;
     commands.begin();
@@ -219,7 +232,8 @@ void Simulation::erode(double time)
     erosion_->record_look(commands, params_buffer_, particles_, static_cast<float>(time));
     if (melting_) {
         melting_->record_changes(commands, params_buffer_, particles_, grid_, erosion_->release_time(),
-                                 erosion_->changes(), static_cast<float>(time));
+                                 erosion_->changes(), static_cast<float>(time),
+                                 has_loose ? &fragments_->body_of() : nullptr);
     }
     if (hydraulic_) {
         hydraulic_->record_changes(commands, params_buffer_, particles_, grid_, erosion_->release_time(),
@@ -245,9 +259,40 @@ void Simulation::erode(double time)
     params_.moving_count += found.freed + called - found.died - found.frozen - found.deposited;
     particles_.moving = params_.moving_count;
     gone_ += found.died - called;
-    if (found.freed + found.died + found.frozen + found.deposited + found.slid + called == 0) {
+    const bool solids_change =
+        found.freed + found.freed_loose + found.frozen + found.frozen_loose + found.deposited + found.slid > 0;
+    const bool surface_moves = has_loose && exposure_;
+    if (!solids_change && !surface_moves && found.died + called == 0) {
         return;
     }
+    part_pool();
+    if (solids_change) {
+        loosen_pieces(time);
+    }
+    commands.begin();
+    record_surface(commands);
+    commands.submit();
+    commands.wait();
+}
+
+void Simulation::loosen_pieces(double time)
+{
+    if (!fragments_) {
+        return;
+    }
+    const shared::PieceChanges found = fragments_->find_pieces(*erosion_commands_, params_buffer_, particles_, grid_,
+                                                               erosion_->release_time(), static_cast<float>(time));
+    params_.moving_count += found.loosened + found.crumbled;
+    particles_.moving = params_.moving_count;
+    if (found.loosened + found.crumbled + found.crumbled_loose > 0) {
+        part_pool();
+    }
+    fragments_->make_bodies(particles_);
+}
+
+void Simulation::part_pool()
+{
+    gpu::Commands& commands = *erosion_commands_;
     commands.begin();
     commands.fill(params_buffer_, params_.moving_count, sizeof(std::uint32_t),
                   offsetof(shared::SphParams, moving_count));
@@ -261,7 +306,6 @@ void Simulation::erode(double time)
     if (capillarity_) {
         capillarity_->record_start(commands);
     }
-    record_surface(commands);
     commands.submit();
     commands.wait();
 }
@@ -279,6 +323,9 @@ Simulation::Readback Simulation::submit_steps(std::uint32_t steps, double start)
     const double fixed_dt = time_.adaptive() ? 0.0 : static_cast<double>(params_.dt);
     for (std::uint32_t i = 0; i < steps; ++i) {
         solver_->record_step(*commands_, fluid(), static_cast<std::uint32_t>(step_ + i));
+        if (fragments_) {
+            fragments_->record_step(*commands_, fluid(), static_cast<std::uint32_t>(step_ + i));
+        }
         const auto at = static_cast<float>(start + (i + 1) * fixed_dt);
         if (dust_) {
             dust_->record(*commands_, fluid(), erosion_->release_time(), emission_->ledger(), at);
@@ -366,6 +413,7 @@ std::uint64_t Simulation::device_bytes() const
     sum += wind_ ? wind_->device_bytes() : 0;
     sum += hydraulic_ ? hydraulic_->device_bytes() : 0;
     sum += exposure_ ? exposure_->device_bytes() : 0;
+    sum += fragments_ ? fragments_->device_bytes() : 0;
     sum += boundary_forces_ != nullptr ? boundary_forces_->reactions().size() : 0;
     for (const gpu::Buffer* buffer : {&particles_.id,
                                       &particles_.attributes,
@@ -538,7 +586,7 @@ void Simulation::enable_timings()
 {
     const std::uint32_t scopes = solver_->scopes() + vorticity_.scopes() + (viscosity_ ? 1 : 0) + (shifting_ ? 1 : 0) +
                                  (capillarity_ ? 1 : 0) + (dust_ ? 1 : 0) + (wind_ ? Wind::scopes() : 0) +
-                                 (emission_ ? emission_->scopes() : 0);
+                                 (fragments_ ? Fragments::scopes() : 0) + (emission_ ? emission_->scopes() : 0);
     commands_ = std::make_unique<gpu::Commands>(*context_, max_steps_per_submission * scopes);
 }
 

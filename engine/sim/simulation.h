@@ -15,6 +15,7 @@
 #include "sim/erosion.h"
 #include "sim/exposure.h"
 #include "sim/fluid_kernels.h"
+#include "sim/fragments.h"
 #include "sim/hydraulic.h"
 #include "sim/implicit_viscosity.h"
 #include "sim/melting.h"
@@ -33,6 +34,7 @@ struct SimulationSettings {
     std::optional<MeltingSettings> melting;     ///< where heat is followed
     std::optional<HydraulicSettings> hydraulic; ///< where flow erodes solids
     std::optional<WindSettings> wind;           ///< where there is sand
+    std::optional<FragmentSettings> fragments;  ///< where pieces of solids may come loose
 };
 
 /// The params with the numbers of particles and the grid size filled in: all of them move.
@@ -106,6 +108,9 @@ public:
     /// Particles of sediment and sand that have become solid again since the start.
     [[nodiscard]] std::uint64_t deposited() const { return deposited_; }
 
+    /// Pieces of solids that nothing holds; null where none can come loose.
+    [[nodiscard]] const Fragments* fragments() const { return fragments_ ? &*fragments_ : nullptr; }
+
     /// Particles that have come and gone since the start. Waits.
     [[nodiscard]] shared::Ledger ledger() const;
     /// Births for which an emitter had no particle left, of each, since the start.
@@ -161,6 +166,10 @@ private:
     /// to be born soon are called up, and the pool is parted anew. `time` in s since the start.
     void erode(double time);
     void note_picked_up(const shared::PoolChanges& found);
+    /// The pool is parted anew: others move than before.
+    void part_pool();
+    /// Pieces that nothing holds come loose, at `time` in s since the start: whenever others are solid.
+    void loosen_pieces(double time);
     /// Where solids are exposed and what of them is seen: whenever others are solid.
     void record_surface(gpu::Commands& commands) const;
     /// Throws where there is a fault; `time` of it in s since the start.
@@ -180,6 +189,7 @@ private:
                 time_,
                 vorticity_,
                 boundary_forces_.get(),
+                fragments_ ? fragments_->forces() : nullptr,
                 viscosity_ ? &*viscosity_ : nullptr,
                 shifting_ ? &*shifting_ : nullptr,
                 capillarity_ ? &*capillarity_ : nullptr};
@@ -202,6 +212,7 @@ private:
     std::optional<Melting> melting_;
     std::optional<Wind> wind_;
     std::optional<Hydraulic> hydraulic_;
+    std::optional<Fragments> fragments_;
     ParticleBuffers particles_;
     NeighborGrid grid_;
     gpu::Buffer params_buffer_;

@@ -8,8 +8,22 @@ namespace meltpoint::sim {
 
 void record_reactions(gpu::Commands& commands, const Fluid& fluid, bool after_viscosity)
 {
-    if (fluid.boundary_forces != nullptr && after_viscosity == (fluid.viscosity != nullptr)) {
-        fluid.boundary_forces->record_forces(commands, fluid);
+    if (after_viscosity != (fluid.viscosity != nullptr)) {
+        return;
+    }
+    for (BoundaryForces* forces : {fluid.boundary_forces, fluid.forces_on_loose}) {
+        if (forces != nullptr) {
+            forces->record_forces(commands, fluid);
+        }
+    }
+}
+
+void record_reaction_impulses(gpu::Commands& commands, const Fluid& fluid, const gpu::Buffer& warm_start)
+{
+    for (BoundaryForces* forces : {fluid.boundary_forces, fluid.forces_on_loose}) {
+        if (forces != nullptr) {
+            forces->record_impulses(commands, fluid, warm_start);
+        }
     }
 }
 

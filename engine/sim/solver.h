@@ -29,6 +29,7 @@ struct Fluid {
     TimeControl& time;
     Vorticity& vorticity;
     BoundaryForces* boundary_forces = nullptr; ///< null where nobody measures them
+    BoundaryForces* forces_on_loose = nullptr; ///< null where no solid is loose
     ImplicitViscosity* viscosity = nullptr;    ///< null where viscosity is a force like the others
     const Shifting* shifting = nullptr;        ///< null where particles stay where their velocities lead them
     Capillarity* capillarity = nullptr;        ///< null where no fluid has tension in SI units
@@ -64,6 +65,8 @@ public:
 /// The forces of fluid on boundary particles, where they are measured: friction is that of the velocities before the
 /// kick, or, solved for, of those that the solve has found. To be called at both places.
 void record_reactions(gpu::Commands& commands, const Fluid& fluid, bool after_viscosity);
+/// The same of impulses, after both solves of a step. warm_start: Dfsph::warm_start().
+void record_reaction_impulses(gpu::Commands& commands, const Fluid& fluid, const gpu::Buffer& warm_start);
 
 /// The solver that options.solver names. Throws Device when its buffers do not fit.
 [[nodiscard]] std::unique_ptr<Solver> make_solver(const gpu::Context& context, const FluidOptions& options,

@@ -82,7 +82,7 @@ void Visibility::record(gpu::Commands& commands, const gpu::Buffer& params, cons
     commands.dispatch(depth_, particles.count, gpu::NoPush{},
                       {read(params), read(params_buffer_), read(particles.position), read(particles.attributes),
                        gpu::read_write(map_)});
-    commands.dispatch(query_, particles.count - particles.moving, gpu::NoPush{},
+    commands.dispatch(query_, particles.count, gpu::NoPush{},
                       {read(params), read(params_buffer_), read(particles.position), read(particles.attributes),
                        read(particles.id), read(exposure), read(map_), gpu::write(visibility_)});
 }

@@ -33,8 +33,9 @@ struct ExposurePush {
     float area_scale;    // A over |sum_j s_j q (1-q)^3 x_ij / r_ij| and the face of a lattice cell, s_j the weights
     float filling_scale; // c over sum_j s_j (1-q)^4 (1+4q)
     float faces;         // of a lattice cell
-    uint first;       // of the still particles, the one to begin with
+    uint first;       // of the particles in their order, the one to begin with
     uint count;       // of them
+    uint any_loose;   // 1 where some solids lie among the moving particles
 };
 
 SHARED_END

@@ -16,6 +16,7 @@ SHARED_CONSTANT uint MATERIAL_SHIFT = 8u;
 SHARED_CONSTANT uint FLAG_LEFT_DOMAIN = 0x10000u; // was outside the domain at least once; never cleared
 SHARED_CONSTANT uint FLAG_CRUMBLES = 0x20000u;   // solid that turns into dust, not fluid
 SHARED_CONSTANT uint FLAG_DUE = 0x40000u;        // dead, and called up to be born soon (shared/emission.h)
+SHARED_CONSTANT uint FLAG_LOOSE = 0x80000u;      // solid of a piece that nothing holds: it moves (shared/rigid.h)
 
 SHARED_FUNCTION uint particle_state(uint attributes) { return attributes & 0xffu; } // STATE_*
 SHARED_FUNCTION uint particle_material(uint attributes) { return (attributes >> MATERIAL_SHIFT) & 0xffu; } // its number
@@ -26,11 +27,16 @@ SHARED_FUNCTION bool is_gone(uint attributes)
 {
     return particle_state(attributes) == STATE_DEAD && (attributes & FLAG_DUE) == 0u;
 }
+// Solid, of a piece that nothing holds.
+SHARED_FUNCTION bool is_loose(uint attributes)
+{
+    return particle_state(attributes) == STATE_SOLID && (attributes & FLAG_LOOSE) != 0u;
+}
 // One that stays where it is. Those who are gone are no longer anywhere, which is the same.
 SHARED_FUNCTION bool is_still(uint attributes)
 {
     uint state = particle_state(attributes);
-    return state == STATE_SOLID || state == STATE_COLLIDER || is_gone(attributes);
+    return (state == STATE_SOLID && !is_loose(attributes)) || state == STATE_COLLIDER || is_gone(attributes);
 }
 SHARED_FUNCTION uint with_state(uint attributes, uint state) { return (attributes & ~0xffu) | state; }
 SHARED_FUNCTION uint pack_attributes(uint state, uint material) { return state | (material << MATERIAL_SHIFT); } // no flags
@@ -42,6 +48,7 @@ SHARED_CONSTANT uint CAUSE_FRONT = 1u;
 SHARED_CONSTANT uint CAUSE_MELT = 2u;
 SHARED_CONSTANT uint CAUSE_HYDRAULIC = 3u;
 SHARED_CONSTANT uint CAUSE_WIND = 4u; // it hops, or falls off a slope (shared/wind.h)
+SHARED_CONSTANT uint CAUSE_FRAGMENT = 5u; // of a piece too small to be one (shared/rigid.h)
 SHARED_FUNCTION uint cause_of(uint attributes) { return (attributes >> CAUSE_SHIFT) & 7u; } // CAUSE_*
 // Dust that drifts with the air until its life is over: not sand, which comes down again.
 SHARED_FUNCTION bool is_drifting(uint attributes)
@@ -55,7 +62,7 @@ SHARED_FUNCTION bool is_flying_sand(uint attributes)
 }
 SHARED_FUNCTION uint freed_as(uint attributes, uint state, uint cause)
 {
-    return (with_state(attributes, state) & ~(7u << CAUSE_SHIFT)) | (cause << CAUSE_SHIFT);
+    return (with_state(attributes, state) & ~(FLAG_LOOSE | 7u << CAUSE_SHIFT)) | (cause << CAUSE_SHIFT);
 }
 
 // Why the simulation stopped.

@@ -8,6 +8,8 @@ SHARED_BEGIN
 
 struct PoolChanges {
     uint freed; // still ones that will move
+    uint freed_loose;  // loose solids that are solid no more: they move already
+    uint frozen_loose; // moving ones that are solid, and loose: they go on moving
     uint died;   // moving ones that are dead
     uint frozen; // moving ones that are solid
     uint deposited; // moving ones that are solid, of sediment or sand at rest

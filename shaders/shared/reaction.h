@@ -13,6 +13,7 @@ struct Reaction {
 
 struct ReactionPush {
     uint first_id; // of boundary particles: theirs is the reaction number 0
+    uint count;    // of particles in the sorted order, those to be looked at
 };
 
 SHARED_END

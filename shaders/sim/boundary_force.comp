@@ -32,11 +32,11 @@ layout(set = 0, binding = 10, scalar) buffer Reactions { Reaction reactions[]; }
 
 void main()
 {
-    if (invocation_index() * TILE >= params.pool_count) {
+    if (invocation_index() * TILE >= push.count) {
         return;
     }
     vec4 own[TILE];
-    Tile tile = only_boundary(load_tile_of(0u, params.pool_count, invocation_index(), own));
+    Tile tile = only_boundary(load_tile_of(0u, push.count, invocation_index(), own));
 
     KernelSize size = kernel_size(params.support_radius);
     vec3 v[TILE]; // as the present image has it

@@ -17,9 +17,11 @@ layout(set = 0, binding = 5, scalar) buffer Velocity { vec4 velocity[]; }; // w:
 layout(set = 0, binding = 6, scalar) writeonly buffer ReleaseTime { float release_time[]; }; // by id, s
 layout(set = 0, binding = 7, scalar) buffer Changes { PoolChanges changes; };
 
+#include "include/freed.glsl"
+
 void main()
 {
-    uint i = params.moving_count + invocation_index();
+    uint i = invocation_index();
     if (i >= params.pool_count || particle_state(attributes[i]) != STATE_SOLID) {
         return;
     }
@@ -29,6 +31,6 @@ void main()
         attributes[i] = freed_as(attributes[i], STATE_FLUID, CAUSE_HYDRAULIC);
         velocity[i].w = abs(velocity[i].w);
         release_time[slot] = time;
-        atomicAdd(changes.freed, 1u);
+        count_freed(i);
     }
 }

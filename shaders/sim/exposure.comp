@@ -16,29 +16,30 @@ layout(set = 0, binding = 3) uniform textureBuffer position_texels;
 layout(set = 0, binding = 4, scalar) readonly buffer Id { uint id[]; };
 layout(set = 0, binding = 5, scalar) readonly buffer Attributes { uint attributes[]; };
 layout(set = 0, binding = 6, scalar) writeonly buffer Exposure { vec4 exposure[]; }; // by id: n, A in m^2
+layout(set = 0, binding = 7, scalar) readonly buffer Velocity { vec4 velocity[]; }; // w: mass, negative of boundary particles
+layout(set = 0, binding = 8) uniform textureBuffer velocity_texels;
 
 #include "include/periodic.glsl"
 
-// Of x or an image of it: the sums over the still particles nearer than the support radius, whose rows of cells may be any
-// number (the cells are made for the fluid's kernel). xyz leads away from what is solid, w is how full of it the place is.
-vec4 solid_around(vec3 x, float support_radius)
+// The sums of solid_around over the particles j of one of the tables of cells, or, of the moving ones, over those of them that are solid.
+vec4 solid_in_table(vec3 x, float support_radius, int table, bool moving)
 {
     ivec3 size = ivec3(params.grid_size);
     ivec3 low = cell_coordinates(x - support_radius, params.domain_min, params.support_radius, params.grid_size);
     ivec3 high = cell_coordinates(x + support_radius, params.domain_min, params.support_radius, params.grid_size);
     low = clamp(low, ivec3(0), size - 1);
     high = clamp(high, ivec3(0), size - 1);
-    int still = size.x * size.y * size.z; // where the cell starts of the still particles begin
     vec4 sum = vec4(0.0);
     for (int z = low.z; z <= high.z; ++z) {
         for (int y = low.y; y <= high.y; ++y) {
-            int row = still + cell_index(ivec3(0, y, z), params.grid_size);
+            int row = table + cell_index(ivec3(0, y, z), params.grid_size);
             uint end = cell_start[row + high.x + 1];
             for (uint j = cell_start[row + low.x]; j < end; ++j) {
                 vec4 neighbor = load_candidate(position, j);
                 vec3 offset = x - neighbor.xyz;
                 float u = max(1.0 - length(offset) / support_radius, 0.0);
-                float weight = neighbor.w * u * u * u;
+                float counts = moving && load_candidate(velocity, j).w > 0.0 ? 0.0 : neighbor.w; // dust has no weight either
+                float weight = counts * u * u * u;
                 sum += weight * vec4(offset, u * (5.0 - 4.0 * u));
             }
         }
@@ -46,9 +47,18 @@ vec4 solid_around(vec3 x, float support_radius)
     return vec4(sum.xyz / support_radius, sum.w);
 }
 
+// Of x or an image of it: the sums over solids and colliders nearer than the support radius, whose rows of cells may be any
+// number (the cells are made for the fluid's kernel). xyz leads away from what is solid, w is how full of it the place is.
+vec4 solid_around(vec3 x, float support_radius)
+{
+    int still = int(params.grid_size.x * params.grid_size.y * params.grid_size.z); // where their cell starts begin
+    vec4 sum = solid_in_table(x, support_radius, still, false);
+    return push.any_loose != 0u ? sum + solid_in_table(x, support_radius, 0, true) : sum;
+}
+
 void main()
 {
-    uint i = params.moving_count + push.first + invocation_index();
+    uint i = push.first + invocation_index();
     if (invocation_index() >= push.count || particle_state(attributes[i]) != STATE_SOLID) {
         return;
     }

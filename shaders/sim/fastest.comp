@@ -24,7 +24,8 @@ void main()
         vec3 v = velocity[i].xyz;
         vec3 later = v + params.dt * acceleration[i].xyz;
         float speed2 = max(dot(v, v), dot(later, later));
-        fastest = is_boundary(attributes[i]) ? fastest : max(fastest, speed2);
+        bool counts = !is_boundary(attributes[i]) || is_loose(attributes[i]);
+        fastest = counts ? max(fastest, speed2) : fastest;
     }
     atomicMax(step.fastest, floatBitsToUint(fastest));
 }

@@ -16,9 +16,11 @@ layout(set = 0, binding = 4, scalar) buffer Velocity { vec4 velocity[]; }; // w:
 layout(set = 0, binding = 5, scalar) buffer Position { vec4 position[]; };         // w: weight
 layout(set = 0, binding = 6, scalar) buffer Changes { PoolChanges changes; };
 
+#include "include/freed.glsl"
+
 void main()
 {
-    uint i = params.moving_count + invocation_index();
+    uint i = invocation_index();
     if (i >= params.pool_count || particle_state(attributes[i]) != STATE_SOLID || time < release_time[id[i]]) {
         return;
     }
@@ -26,5 +28,5 @@ void main()
     attributes[i] = freed_as(attributes[i], crumbles ? STATE_DUST : STATE_FLUID, CAUSE_FRONT);
     velocity[i].w = crumbles ? velocity[i].w : abs(velocity[i].w);
     position[i].w = crumbles ? 0.0 : position[i].w;
-    atomicAdd(changes.freed, 1u);
+    count_freed(i);
 }

@@ -11,7 +11,7 @@
 layout(push_constant, scalar) uniform Push { uint step_index; };
 layout(set = 0, binding = 0, scalar) uniform Params { SphParams params; };
 layout(set = 0, binding = 1, scalar) readonly buffer Id { uint id[]; };
-layout(set = 0, binding = 2, scalar) readonly buffer Interaction { vec4 interaction[]; };
+layout(set = 0, binding = 2, scalar) buffer Interaction { vec4 interaction[]; }; // of shared/sph_params.h
 layout(set = 0, binding = 3, scalar) readonly buffer Move { vec4 move[]; };
 layout(set = 0, binding = 4, scalar) buffer Attributes { uint attributes[]; };
 layout(set = 0, binding = 5, scalar) buffer Position { vec4 position[]; };
@@ -46,6 +46,7 @@ void main()
     velocity[i].xyz = v;
     position[i].xyz = x;
     float volume = interaction[i].y;
-    pressure[i] /= params.gradient_scale * params.dt * params.dt * volume * volume;
+    interaction[i].x = pressure[i] / (params.dt * params.dt); // for its reaction on loose solids
+    pressure[i] = interaction[i].x / (params.gradient_scale * volume * volume);
     watch(i, x, v, step_index);
 }

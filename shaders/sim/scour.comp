@@ -41,18 +41,20 @@ vec4 flow_at(vec3 x)
     FOR_EACH_CANDIDATE(range, walk) {
         vec4 xj = load_candidate(position, range.x);
         vec3 offset = x - xj.xyz;
-        float share = xj.w * density_shape(dot(offset, offset), size);
-        sum += share * vec4(load_candidate(velocity, range.x).xyz, 1.0);
+        vec4 vj = load_candidate(velocity, range.x);
+        float share = vj.w > 0.0 ? xj.w * density_shape(dot(offset, offset), size) : 0.0; // no loose solid
+        sum += share * vec4(vj.xyz, 1.0);
     }
     vec3 mean = sum.w > 0.0 ? sum.xyz / sum.w : vec3(0.0);
     return vec4(mean, params.lattice_volume * params.density_scale * sum.w);
 }
 
 // dD/dt, 1/s, of a particle with an exposed surface.
-float damage_rate(uint material, vec3 x, float mass, vec4 surface, float its_strength)
+float damage_rate(uint material, vec3 x, vec3 v, float mass, vec4 surface, float its_strength)
 {
     vec4 flow = flow_at(x + params.spacing * surface.xyz);
-    vec3 along = flow.xyz - dot(flow.xyz, surface.xyz) * surface.xyz;
+    vec3 along = flow.xyz - v;
+    along -= dot(along, surface.xyz) * surface.xyz;
     float shear = length(along) / params.spacing;
     float stress = shear > 0.0 ? hydraulic.consistency * pow(shear, hydraulic.flow_exponent) : 0.0;
     float excess = stress / its_strength - hydraulic.threshold[material];
@@ -75,7 +77,7 @@ void main()
     }
     damage[slot] = two_float_add(damage[slot], rate[slot] * seconds);
     vec4 surface = exposure[slot];
-    float now = surface.w > 0.0 ? damage_rate(material, position[i].xyz, abs(velocity[i].w), surface, strength[slot]) : 0.0;
+    float now = surface.w > 0.0 ? damage_rate(material, position[i].xyz, velocity[i].xyz, abs(velocity[i].w), surface, strength[slot]) : 0.0;
     rate[slot] = now;
     atomicMax(fastest, floatBitsToUint(now));
 }

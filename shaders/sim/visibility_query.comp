@@ -19,7 +19,7 @@ layout(set = 0, binding = 7, scalar) writeonly buffer Seen { float seen[]; }; //
 
 void main()
 {
-    uint i = params.moving_count + invocation_index();
+    uint i = invocation_index();
     if (i >= params.pool_count || particle_state(attributes[i]) != STATE_SOLID) {
         return;
     }

@@ -39,7 +39,8 @@ float fluid_filling(vec3 x)
     FOR_EACH_CANDIDATE(range, walk) {
         vec4 xj = position[range.x];
         vec3 offset = x - xj.xyz;
-        sum += xj.w * density_shape(dot(offset, offset), size);
+        float covers = velocity[range.x].w > 0.0 ? xj.w : 0.0; // no loose solid
+        sum += covers * density_shape(dot(offset, offset), size);
     }
     return params.lattice_volume * params.density_scale * sum;
 }
