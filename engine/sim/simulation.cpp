@@ -135,7 +135,9 @@ Simulation::Simulation(const gpu::Context& context, const ParticleSet& particles
             fragments_.emplace(context, options_, params_, *settings.fragments);
         }
         if (settings.melting || settings.hydraulic || settings.wind) {
-            exposure_.emplace(context, options_, params_.pool_count);
+            exposure_.emplace(context, options_, params_.pool_count,
+                              params_.grid_size.x * params_.grid_size.y * params_.grid_size.z);
+            exposure_->record_start(*commands_);
         }
         gone_ = static_cast<std::uint32_t>(std::ranges::count_if(particles.attributes, shared::is_gone));
         if (settings.dust) {
@@ -190,15 +192,10 @@ std::uint32_t Simulation::look_interval() const
     return static_cast<std::uint32_t>(std::clamp(longest / longest_dt, 1.0, static_cast<double>(interval)));
 }
 
-void Simulation::record_surface(gpu::Commands& commands) const
+void Simulation::record_surface(gpu::Commands& commands)
 {
     if (exposure_) {
-        exposure_->record_start(commands);
-        if (fragments_ && fragments_->bodies() > 0) {
-            exposure_->record_with_loose(commands, params_buffer_, particles_, grid_);
-        } else {
-            exposure_->record(commands, params_buffer_, particles_, grid_);
-        }
+        exposure_->record_changes(commands, params_buffer_, particles_, grid_, fragments_ && fragments_->bodies() > 0);
     }
     if (melting_) {
         melting_->record_surface(commands, params_buffer_, particles_, *exposure_);

@@ -171,7 +171,7 @@ private:
     /// Pieces that nothing holds come loose, at `time` in s since the start: whenever others are solid.
     void loosen_pieces(double time);
     /// Where solids are exposed and what of them is seen: whenever others are solid.
-    void record_surface(gpu::Commands& commands) const;
+    void record_surface(gpu::Commands& commands);
     /// Throws where there is a fault; `time` of it in s since the start.
     static void check_status(const shared::Status& status, double time);
     /// Steps from this look to the next.

@@ -36,6 +36,7 @@ struct ExposurePush {
     uint first;       // of the particles in their order, the one to begin with
     uint count;       // of them
     uint any_loose;   // 1 where some solids lie among the moving particles
+    uint round;       // only in cells that are marked with it; 0: in all
 };
 
 SHARED_END

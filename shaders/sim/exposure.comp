@@ -18,6 +18,7 @@ layout(set = 0, binding = 5, scalar) readonly buffer Attributes { uint attribute
 layout(set = 0, binding = 6, scalar) writeonly buffer Exposure { vec4 exposure[]; }; // by id: n, A in m^2
 layout(set = 0, binding = 7, scalar) readonly buffer Velocity { vec4 velocity[]; }; // w: mass, negative of boundary particles
 layout(set = 0, binding = 8) uniform textureBuffer velocity_texels;
+layout(set = 0, binding = 9, scalar) readonly buffer Marks { uint marks[]; }; // of each cell (surface_change.comp)
 
 #include "include/periodic.glsl"
 
@@ -60,6 +61,10 @@ void main()
 {
     uint i = push.first + invocation_index();
     if (invocation_index() >= push.count || particle_state(attributes[i]) != STATE_SOLID) {
+        return;
+    }
+    uint cell = cell_of(position[i].xyz, params.domain_min, params.support_radius, params.grid_size);
+    if (push.round != 0u && marks[cell] != push.round) {
         return;
     }
     // The images beyond the borders within reach: -1 is that at the lower one, 1 that at the upper one.

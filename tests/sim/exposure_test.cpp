@@ -44,7 +44,8 @@ protected:
     {
         conformance::Device device(context(), set, settings);
         const auto count = static_cast<std::uint32_t>(set.size());
-        const sim::Exposure exposure(context(), settings.options, count);
+        sim::Exposure exposure(context(), settings.options, count,
+                               device.params.grid_size.x * device.params.grid_size.y * device.params.grid_size.z);
         gpu::upload<glm::vec4>(context(), exposure.exposure(), std::vector<glm::vec4>(count, untouched));
         device.run([&] {
             sim::record_partition(device.commands, device.kernels, device.params_buffer, device.particles, device.grid);
@@ -150,6 +151,63 @@ protected:
         return is_flat ? in_plane(set) : set;
     }
 };
+
+TEST_F(ExposureTest, NearChangesItIsThatOfAllAndElsewhereAsItWas)
+{
+    for (const std::uint32_t periodic : {0x00u, 0x3fu}) {
+        for (const float ratio : {1.25f, 2.0f, 3.0f}) {
+            SCOPED_TRACE(testing::Message() << "H = " << ratio << " d, periodic " << periodic);
+            sim::SimulationSettings its = settings(ratio);
+            set_kernel_scales(its.params, shared::KERNEL_WENDLAND, static_cast<double>(d));
+            its.params.wall_mask = 0x3fu & ~periodic;
+            its.params.periodic_mask = periodic;
+            its.params.domain_max = {1.03f, 0.97f, 1.01f}; // no whole number of cells
+            Random random(5);
+            ParticleSet set;
+            for (int i = 0; i < 6000; ++i) { // clumps, some of them at borders
+                const glm::vec3 clump = glm::vec3(i % 3, i / 3 % 3, i / 9 % 3) * 0.48f;
+                const glm::vec3 x = clump + 0.3f * (random_vector(random) - 0.5f);
+                add_particle(set, glm::clamp(x, glm::vec3(0.01f), its.params.domain_max - 0.01f));
+            }
+            make_solid(set);
+            conformance::Device device(context(), set, its);
+            const glm::uvec3 cells = device.params.grid_size;
+            const auto count = static_cast<std::uint32_t>(set.size());
+            sim::Exposure exposure(context(), its.options, count, cells.x * cells.y * cells.z);
+            const auto find_changes = [&](bool start) {
+                device.run([&] {
+                    if (start) {
+                        exposure.record_start(device.commands);
+                    }
+                    sim::record_partition(device.commands, device.kernels, device.params_buffer, device.particles,
+                                          device.grid);
+                    sim::record_boundary_weight(device.commands, device.kernels, device.params_buffer, device.particles,
+                                                device.grid);
+                    exposure.record_changes(device.commands, device.params_buffer, device.particles, device.grid,
+                                            false);
+                });
+                return exposure.download();
+            };
+            const std::vector<glm::vec4> first = find_changes(true);
+            EXPECT_EQ(find_changes(false), first) << "nothing has changed";
+            ParticleSet changed = download(context(), device.particles);
+            for (std::size_t i = 0; i < changed.size(); i += 450) {
+                if (i / 450 % 3 == 0) {
+                    changed.position[i] = glm::vec3(0.02f, 0.5f, 0.02f) + 0.1f * random_vector(random);
+                } else {
+                    changed.attributes[i] =
+                        shared::pack_attributes(i / 450 % 3 == 1 ? shared::STATE_COLLIDER : shared::STATE_DEAD, 2);
+                    changed.weight[i] = i / 450 % 3 == 1 ? changed.weight[i] : 0.0f;
+                }
+            }
+            upload(context(), changed, device.particles);
+            const std::vector<glm::vec4> after = find_changes(false);
+            const std::vector<glm::vec4> all = find_changes(true);
+            EXPECT_TRUE(after == all);
+            EXPECT_FALSE(after == first);
+        }
+    }
+}
 
 TEST_F(ExposureTest, IsThatOfItsTwin)
 {

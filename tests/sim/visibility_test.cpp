@@ -50,7 +50,8 @@ protected:
     {
         conformance::Device device(context(), set, settings);
         const auto count = static_cast<std::uint32_t>(set.size());
-        const sim::Exposure exposure(context(), settings.options, count);
+        sim::Exposure exposure(context(), settings.options, count,
+                               device.params.grid_size.x * device.params.grid_size.y * device.params.grid_size.z);
         const sim::Visibility visibility(context(), view, device.params);
         gpu::upload<float>(context(), visibility.visibility(), std::vector<float>(count, untouched));
         gpu::upload<glm::vec4>(context(), exposure.exposure(), made_up);
