@@ -815,7 +815,7 @@ mutation "melting: looks are rare" \
     conformance_tests 'MeltingTest.TheSunMeltsWhatItsPowerAmountsTo'
 mutation "freezing: in mid-water" \
     shaders/sim/freeze.comp \
-    'if (touches_solid(position[i].xyz)) {' \
+    'if (at_still || at_loose) {' \
     'if (true) {' \
     conformance_tests 'MeltingTest.LooksAreTheTwins'
 mutation "freezing: what is frozen counts as moving" \
@@ -900,7 +900,7 @@ mutation "fragments: a light body stops a heavy one" \
     'mix(mass / (own_mass + mass), 1.0, fixed_share)' \
     '1.0' \
     conformance_tests 'FragmentsTest.StepsAreTheTwins'
-mutation "fragments: fluid does not feel its own force twice" \
+mutation "fragments: the force of fluid is felt again in every step" \
     shaders/sim/rigid_step.comp \
     'reactions[its_id] = Reaction(vec3(0.0), vec3(0.0))' \
     'reactions[its_id].friction = vec3(0.0)' \
@@ -1353,8 +1353,8 @@ mutation "viscosity solve: a lattice is the same along all directions without th
     unit_tests 'ReferenceViscosity.IsThatOfTheNavierStokesEquations'
 mutation "viscosity solve: colliders feel the friction of the velocities before it" \
     engine/sim/solver.cpp \
-    'after_viscosity == (fluid.viscosity != nullptr)' \
-    '!after_viscosity' \
+    'after_viscosity != (fluid.viscosity != nullptr)' \
+    'after_viscosity' \
     physics_short_tests 'ViscousDecay.FrictionIsTheSameExplicitOrSolvedFor'
 mutation "viscosity: the force stays where it is solved for" \
     shaders/sim/forces.comp \
@@ -1442,8 +1442,8 @@ mutation "liquids: they have no viscosity of their own" \
 
 mutation "scour: the flow towards the surface counts, too" \
     shaders/sim/scour.comp \
-    'vec3 along = flow.xyz - dot(flow.xyz, surface.xyz) * surface.xyz;' \
-    'vec3 along = flow.xyz;' \
+    'along -= dot(along, surface.xyz) * surface.xyz;' \
+    '' \
     conformance_tests 'HydraulicTest.LooksAreTheTwins'
 mutation "scour: what is strong begins to go as early as the rest" \
     shaders/sim/scour.comp \

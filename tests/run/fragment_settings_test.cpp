@@ -11,7 +11,7 @@ namespace {
 
 Scene scene_with(const std::string& keys)
 {
-    return parse_scene("[[solid]]\nshape = \"block\"\nmax = [0.2, 0.2, 0.2]\n" + keys, "scene", ".", {});
+    return parse_scene("[[solid]]\nshape = \"block\"\nmin = [0, 0, 0]\nmax = [0.2, 0.2, 0.2]\n" + keys, "scene", ".", {});
 }
 
 TEST(FragmentSettings, AnchorsAndFrictionAreThoseOfTheMaterials)
@@ -34,7 +34,7 @@ TEST(FragmentSettings, OrdinarySolidsStandOnTheGround)
 TEST(FragmentSettings, NothingBreaksOffWhereAllHoldsItself)
 {
     EXPECT_FALSE(fragment_settings(scene_with("anchor = \"all\"\n")).has_value());
-    EXPECT_FALSE(fragment_settings(parse_scene("[[fluid]]\nshape = \"block\"\nmax = [1, 1, 1]\n", "scene", ".", {}))
+    EXPECT_FALSE(fragment_settings(parse_scene("[[fluid]]\nshape = \"block\"\nmin = [0, 0, 0]\nmax = [1, 1, 1]\n", "scene", ".", {}))
                      .has_value());
 }
 
