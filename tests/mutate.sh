@@ -815,7 +815,7 @@ mutation "melting: looks are rare" \
     conformance_tests 'MeltingTest.TheSunMeltsWhatItsPowerAmountsTo'
 mutation "freezing: in mid-water" \
     shaders/sim/freeze.comp \
-    'if (touches_solid(position[i].xyz)) {' \
+    'if (at_still || at_loose) {' \
     'if (true) {' \
     conformance_tests 'MeltingTest.LooksAreTheTwins'
 mutation "freezing: what is frozen counts as moving" \
@@ -828,6 +828,109 @@ mutation "heat: the time since the last look is twice as long" \
     'const double seconds = time - looked_at_;' \
     'const double seconds = 2.0 * (time - looked_at_);' \
     conformance_tests 'MeltingTest.LooksAreTheTwins'
+# --- the mutations: fragments ------------------------------------------------------------------------------------------
+
+mutation "fragments: who is a little farther is connected, too" \
+    shaders/sim/piece_hook.comp \
+    'float reach = BOND_DISTANCE * params.spacing' \
+    'float reach = 1.1 * BOND_DISTANCE * params.spacing' \
+    conformance_tests 'FragmentsTest.PiecesAreTheTwins'
+mutation "fragments: loose pieces that touch are one" \
+    shaders/sim/piece_hook.comp \
+    'its_body == body || its_body == NO_BODY || body == NO_BODY' \
+    'true' \
+    conformance_tests 'FragmentsTest.TouchingBodiesStayApart'
+mutation "fragments: pieces are looked for once" \
+    engine/sim/fragments.cpp \
+    'while (is_first || readback_.mapped<shared::PieceChanges>()[0].unsettled > 0)' \
+    'while (is_first)' \
+    conformance_tests 'FragmentsTest.LongChainsAreOnePiece'
+mutation "fragments: borders of periodic axes cut pieces" \
+    shaders/include/near_walk.glsl \
+    'uvec3(near) * uvec3(periodic_axes())' \
+    'uvec3(0u)' \
+    conformance_tests 'FragmentsTest.PiecesAreTheTwins'
+mutation "fragments: colliders hold nothing" \
+    shaders/sim/piece_census.comp \
+    'anchor == ANCHOR_ALL || touches_wall(x) || touches_collider(x)' \
+    'anchor == ANCHOR_ALL || touches_wall(x)' \
+    conformance_tests 'FragmentsTest.PiecesAreTheTwins'
+mutation "fragments: loose pieces that land are held" \
+    shaders/sim/piece_census.comp \
+    'if (is_loose(attributes[i]) || anchor == ANCHOR_NONE)' \
+    'if (anchor == ANCHOR_NONE)' \
+    conformance_tests 'FragmentsTest.WhatHasLandedIsLooseStill'
+mutation "fragments: small pieces fall, too" \
+    shaders/sim/piece_loosen.comp \
+    'piece.size < LEAST_PIECE' \
+    'piece.size < LEAST_PIECE - 1u' \
+    conformance_tests 'FragmentsTest.PiecesAreTheTwins'
+mutation "fragments: a body has the velocity of its first particle" \
+    engine/sim/fragments.cpp \
+    '.velocity = momentum / mass' \
+    '.velocity = members.front().v' \
+    conformance_tests 'FragmentsTest.WhatSplitsKeepsItsMomentumAndAngularMomentum'
+mutation "fragments: a body does not turn as it did" \
+    engine/sim/fragments.cpp \
+    'angular_momentum += each.mass * glm::cross(arm, each.v)' \
+    'angular_momentum += 0.9 * each.mass * glm::cross(arm, each.v)' \
+    conformance_tests 'FragmentsTest.WhatSplitsKeepsItsMomentumAndAngularMomentum'
+mutation "fragments: the angular velocity of the step's begin turns a body" \
+    shaders/sim/rigid_step.comp \
+    'turned(before, angular_velocity, 0.5 * params.dt)' \
+    'before' \
+    conformance_tests 'FragmentsTest.ASpinningBodyKeepsItsEnergy:FragmentsTest.StepsAreTheTwins'
+mutation "fragments: contacts have no friction" \
+    shaders/sim/rigid_step.comp \
+    'float most = sliding_friction * normal_now' \
+    'float most = 0.0' \
+    conformance_tests 'FragmentsTest.FrictionHoldsWhatIsNotTooSteep'
+mutation "fragments: each contact has the whole body" \
+    shaders/sim/rigid_step.comp \
+    'lacking / (all_contacts * mobility' \
+    'lacking / (mobility' \
+    conformance_tests 'FragmentsTest.StepsAreTheTwins'
+mutation "fragments: what overlaps does not part" \
+    shaders/sim/rigid_step.comp \
+    'return gap > 0.0 ? -gap / params.dt : parting' \
+    'return gap > 0.0 ? -gap / params.dt : 0.0' \
+    conformance_tests 'FragmentsTest.StepsAreTheTwins'
+mutation "fragments: a light body stops a heavy one" \
+    shaders/sim/rigid_touch.comp \
+    'mix(mass / (own_mass + mass), 1.0, fixed_share)' \
+    '1.0' \
+    conformance_tests 'FragmentsTest.StepsAreTheTwins'
+mutation "fragments: the force of fluid is felt again in every step" \
+    shaders/sim/rigid_step.comp \
+    'reactions[its_id] = Reaction(vec3(0.0), vec3(0.0))' \
+    'reactions[its_id].friction = vec3(0.0)' \
+    physics_short_tests 'FloatingTest*'
+mutation "fragments: the longest step knows nothing of bodies" \
+    shaders/sim/fastest.comp \
+    '|| is_loose(attributes[i])' \
+    '|| false' \
+    conformance_tests 'FragmentsTest.BodiesAreSeenByTheTimeStep'
+mutation "fragments: a floating piece does not melt" \
+    shaders/sim/melt.comp \
+    'particle_state(attributes[i]) != STATE_SOLID)' \
+    'particle_state(attributes[i]) != STATE_SOLID || is_loose(attributes[i]))' \
+    conformance_tests 'FragmentsTest.LooksAtLooseSolidsAreTheTwins'
+mutation "fragments: a piece does not shade itself" \
+    shaders/sim/exposure.comp \
+    'moving && load_candidate(velocity, j).w > 0.0' \
+    'moving' \
+    conformance_tests 'FragmentsTest.LooksAtLooseSolidsAreTheTwins'
+mutation "fragments: nothing freezes to a floating piece" \
+    shaders/sim/freeze.comp \
+    'body_of[id[range.x]] != NO_BODY' \
+    'false' \
+    conformance_tests 'FragmentsTest.LooksAtLooseSolidsAreTheTwins'
+mutation "fragments: a piece covers itself like water" \
+    shaders/sim/warm.comp \
+    'velocity[range.x].w > 0.0 ? xj.w : 0.0' \
+    'xj.w' \
+    conformance_tests 'FragmentsTest.LooksAtLooseSolidsAreTheTwins'
+
 mutation "heat: an emitter's water at its melting point is ice" \
     engine/run/heat_settings.cpp \
     'state == shared::STATE_FLUID || state == shared::STATE_DEAD' \
@@ -1250,8 +1353,8 @@ mutation "viscosity solve: a lattice is the same along all directions without th
     unit_tests 'ReferenceViscosity.IsThatOfTheNavierStokesEquations'
 mutation "viscosity solve: colliders feel the friction of the velocities before it" \
     engine/sim/solver.cpp \
-    'after_viscosity == (fluid.viscosity != nullptr)' \
-    '!after_viscosity' \
+    'after_viscosity != (fluid.viscosity != nullptr)' \
+    'after_viscosity' \
     physics_short_tests 'ViscousDecay.FrictionIsTheSameExplicitOrSolvedFor'
 mutation "viscosity: the force stays where it is solved for" \
     shaders/sim/forces.comp \
@@ -1422,8 +1525,8 @@ mutation "liquids: they have no viscosity of their own" \
 
 mutation "scour: the flow towards the surface counts, too" \
     shaders/sim/scour.comp \
-    'vec3 along = flow.xyz - dot(flow.xyz, surface.xyz) * surface.xyz;' \
-    'vec3 along = flow.xyz;' \
+    'along -= dot(along, surface.xyz) * surface.xyz;' \
+    '' \
     conformance_tests 'HydraulicTest.LooksAreTheTwins'
 mutation "scour: what is strong begins to go as early as the rest" \
     shaders/sim/scour.comp \

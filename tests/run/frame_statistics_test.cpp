@@ -167,6 +167,9 @@ TEST(FrameStatistics, EveryValueStandsInItsColumn)
     s.simulate_ms = 12.3456;
     s.draw_ms = 7.0;
     EXPECT_EQ(cell(s, "iterations_density") + cell(s, "iterations_divergence") + cell(s, "iterations_viscosity"), "");
+    EXPECT_EQ(cell(s, "fragments"), ""); // none can break off
+    s.fragments = 3;
+    EXPECT_EQ(cell(s, "fragments"), "3");
     s.iterations_density = 4.5;
     s.iterations_divergence = 1.25;
     s.iterations_viscosity = 8.0;

@@ -5,6 +5,7 @@
 #include <limits>
 #include <vector>
 
+#include "core/error.h"
 #include "core/random.h"
 #include "reference/cells.h"
 #include "reference/exposure.h"
@@ -380,6 +381,69 @@ TEST_F(FragmentsTest, TheFarEndOfACutBarFallsAndTheNearEndStays)
     }
     const double seconds = simulation.time() - 0.032; // it is seen at the second look
     EXPECT_NEAR(way, 0.5 * 9.81 * seconds * seconds, 0.02 * way);
+}
+
+TEST_F(FragmentsTest, TouchingBodiesStayApart)
+{
+    sim::SimulationSettings its = settings();
+    its.params.gravity = glm::vec3(0.0f);
+    ParticleSet start; // two blocks that fly into each other; later one of them loses a particle
+    add_block(start, {3, 4, 4}, {0.2f, 0.4f, 0.4f}, shared::STATE_SOLID);
+    add_block(start, {3, 4, 4}, {0.5f, 0.4f, 0.4f}, shared::STATE_SOLID);
+    for (std::size_t i = 0; i < start.size(); ++i) {
+        start.velocity[i].x = start.position[i].x < 0.45f ? 1.0f : -1.0f;
+    }
+    start.release_time[0] = 0.15f;
+    sim::Simulation simulation(context(), start, its);
+    simulation.advance(100);
+    const ParticleSet before = simulation.download();
+    EXPECT_NEAR(static_cast<double>(before.position[48].x - before.position[2].x), d, 0.1 * d);
+    EXPECT_LT(fastest(before), 0.02); // head on, and nothing springs back
+    simulation.advance(100);
+    EXPECT_EQ(count(simulation.download(), shared::STATE_FLUID), 1u);
+    EXPECT_EQ(simulation.fragments()->bodies(), 2u);
+}
+
+TEST_F(FragmentsTest, WhatHasLandedIsLooseStill)
+{
+    sim::SimulationSettings its = settings();
+    ParticleSet start; // it stands on its side, and topples
+    add_block(start, {2, 8, 4}, {0.4f, 0.1f, 0.4f}, shared::STATE_SOLID);
+    start.release_time[63] = 0.1f; // a corner is lost when it has landed
+    sim::Simulation simulation(context(), start, its);
+    EXPECT_EQ(simulation.fragments()->bodies(), 1u);
+    simulation.advance(300);
+    const ParticleSet after = simulation.download();
+    EXPECT_EQ(count(after, shared::STATE_FLUID), 1u);
+    EXPECT_EQ(count_if(after, shared::is_loose), 63u);
+    EXPECT_EQ(simulation.fragments()->bodies(), 1u);
+}
+
+TEST_F(FragmentsTest, BodiesAreSeenByTheTimeStep)
+{
+    sim::SimulationSettings its = settings();
+    its.params.gravity = glm::vec3(0.0f);
+    its.params.adaptive_dt = 1;
+    its.params.cfl_length = 0.02f;
+    its.params.cfl_speed = 1.0f;
+    its.params.longest_dt = its.params.dt = 0.1f;
+    its.params.longest_move = 0.1f;
+    ParticleSet start;
+    add_block(start, {3, 3, 3}, {0.3f, 0.4f, 0.4f}, shared::STATE_SOLID);
+    std::ranges::fill(start.velocity, glm::vec3(3.0f, 0.0f, 0.0f));
+    sim::Simulation simulation(context(), start, its);
+    simulation.advance(4);
+    EXPECT_NEAR(simulation.time(), 4 * 0.02 / (1.0 + 3.0), 1e-6);
+}
+
+TEST_F(FragmentsTest, ABodyThatLeavesTheDomainEndsTheRun)
+{
+    sim::SimulationSettings its = settings();
+    its.params.wall_mask = 0;
+    ParticleSet start;
+    add_block(start, {3, 3, 3}, {0.3f, 0.1f, 0.4f}, shared::STATE_SOLID);
+    sim::Simulation simulation(context(), start, its);
+    EXPECT_THROW(simulation.advance(400), Error);
 }
 
 /// Ice on the floor and a block of it that nothing holds, half in water that is too cold or warm.
