@@ -41,6 +41,14 @@ std::string_view describe_fault(std::uint32_t fault)
     }
 }
 
+/// s, that a piece which has broken off may stay where it is before anybody notices: in which it falls by a tenth of a
+/// spacing. To find pieces at every look would often take longer than the steps between.
+double piece_delay(const shared::SphParams& params)
+{
+    const double gravity = glm::length(glm::dvec3(params.gravity));
+    return gravity > 0.0 ? std::sqrt(0.2 * static_cast<double>(params.spacing) / gravity) : 0.0;
+}
+
 const ParticleSet& checked(const gpu::Context& context, const ParticleSet& particles)
 {
     if (particles.size() == 0) {
@@ -259,11 +267,13 @@ void Simulation::erode(double time)
     const bool solids_change =
         found.freed + found.freed_loose + found.frozen + found.frozen_loose + found.deposited + found.slid > 0;
     const bool surface_moves = has_loose && exposure_;
-    if (!solids_change && !surface_moves && found.died + called == 0) {
+    pieces_change_ = pieces_change_ || solids_change;
+    const bool pieces_due = pieces_change_ && (found.freed_loose + found.frozen_loose > 0 || time >= next_pieces_);
+    if (!solids_change && !surface_moves && !pieces_due && found.died + called == 0) {
         return;
     }
     part_pool();
-    if (solids_change) {
+    if (pieces_due) {
         loosen_pieces(time);
     }
     commands.begin();
@@ -277,6 +287,8 @@ void Simulation::loosen_pieces(double time)
     if (!fragments_) {
         return;
     }
+    pieces_change_ = false;
+    next_pieces_ = time + piece_delay(params_);
     const shared::PieceChanges found = fragments_->find_pieces(*erosion_commands_, params_buffer_, particles_, grid_,
                                                                erosion_->release_time(), static_cast<float>(time));
     params_.moving_count += found.loosened + found.crumbled;

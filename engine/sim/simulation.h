@@ -227,6 +227,8 @@ private:
     std::uint64_t step_ = 0;
     std::uint64_t next_erosion_ = 0;    ///< the step before which solids are looked at
     double looked_at_ = 0.0;            ///< s, when that was done last
+    bool pieces_change_ = false;        ///< others are solid since pieces were found
+    double next_pieces_ = 0.0;          ///< s, before which no pieces are looked for that are not loose already
     std::uint64_t deposited_ = 0;       ///< particles, since the start
     std::uint32_t gone_ = 0;            ///< particles that are dead and lie behind all others
     float dt_limit_ = 0.0f;             ///< s, how long the last step might have been
