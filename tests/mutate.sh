@@ -1362,6 +1362,89 @@ mutation "viscosity: the force stays where it is solved for" \
     'interaction_j.z' \
     conformance_tests 'States/PassConformance.SolvedViscosity/RandomWendland'
 
+# --- wind ---------------------------------------------------------------------------------------------------------------
+
+mutation "wind: sheltered places lose sand, too" \
+    shaders/sim/wind_erode.comp \
+    'share * visibility[slot] *' \
+    'share *' \
+    conformance_tests 'SandTest.NoSandLeavesShelteredPlaces'
+mutation "wind: it takes sand below its threshold" \
+    shaders/sim/wind_erode.comp \
+    'stress > sand.threshold' \
+    'stress > 0.0' \
+    conformance_tests 'SandTest.BelowTheThresholdNothingMoves'
+mutation "wind: it takes 10 % more than its flux" \
+    engine/sim/wind.cpp \
+    'its.pick_up = static_cast<float>(bagnold' \
+    'its.pick_up = 1.1f * static_cast<float>(bagnold' \
+    conformance_tests 'SandTest.AFlatBedLosesItsFluxOverTheLengthOfAHop'
+mutation "wind: steep sand stays where it is" \
+    shaders/include/ground.glsl \
+    'length(plane) > steepest_ground' \
+    'false' \
+    conformance_tests 'SandTest.HeapsStandAtTheirAngleOfRepose'
+mutation "wind: what has come down stays where it is too steep" \
+    shaders/sim/alight.comp \
+    'down.way == WAY_NONE' \
+    'true' \
+    conformance_tests 'SandTest.StepsAndLooksAreTheTwins'
+mutation "wind: towers of sand stand" \
+    shaders/include/ground.glsl \
+    'slope > steepest_step ||' \
+    '' \
+    conformance_tests 'SandTest.StepsAndLooksAreTheTwins'
+mutation "wind: a column's new top lies where the old one was" \
+    shaders/include/columns.glsl \
+    '(loses_top(texel) ? 0.0 : params.spacing)' \
+    '0.0' \
+    conformance_tests 'SandTest.StepsAndLooksAreTheTwins'
+mutation "wind: a column's new top hangs over where the old one was" \
+    shaders/include/columns.glsl \
+    '(loses_top(texel) ? 0.0 : params.spacing)' \
+    'params.spacing' \
+    conformance_tests 'SandTest.StepsAndLooksAreTheTwins'
+mutation "wind: all who have come down find room at once" \
+    shaders/sim/land.comp \
+    'if (claim[index_of(here)] != id[i]) {' \
+    'if (claim[index_of(here)] == WAY_NONE) {' \
+    conformance_tests 'SandTest.StepsAndLooksAreTheTwins'
+mutation "wind: all who slide to a column find room at once" \
+    shaders/sim/slide_apply.comp \
+    '} else if (claim[index_of(there)] == id[i]) {' \
+    '} else {' \
+    conformance_tests 'SandTest.StepsAndLooksAreTheTwins:SandTest.HeapsStandAtTheirAngleOfRepose'
+mutation "wind: grains climb walls" \
+    shaders/sim/hop.comp \
+    'if (blocked) {' \
+    'if (false) {' \
+    conformance_tests 'SandTest.StepsAndLooksAreTheTwins'
+mutation "wind: what comes down on the floor never rests" \
+    shaders/sim/hop.comp \
+    'height_of(next) <= lowest' \
+    'height_of(next) < lowest' \
+    conformance_tests 'SandTest.HeapsStandAtTheirAngleOfRepose'
+mutation "wind: nothing moves at first" \
+    engine/sim/wind.cpp \
+    'shared::random_share(id) : 0.0f' \
+    '0.0f : 0.0f' \
+    conformance_tests 'SandTest.TheWindHasBeenAtWorkBeforeTheStart'
+mutation "wind: the ground's slope is that of one axis" \
+    shaders/sim/ground.comp \
+    'top * vec2(x, y)' \
+    'top * vec2(x, 0.0)' \
+    conformance_tests 'SandTest.StepsAndLooksAreTheTwins'
+mutation "wind: hops get no drag" \
+    shaders/sim/hop.comp \
+    '1.0 - exp(-params.dt / sand.response_time)' \
+    'params.dt / sand.response_time * 0.5' \
+    conformance_tests 'SandTest.GrainsHopAsFarAsTheyAreMeantTo:SandTest.StepsAndLooksAreTheTwins'
+mutation "wind: sand lost beyond the border is not counted" \
+    shaders/sim/hop.comp \
+    'atomicAdd(ledger.sunk, 1u)' \
+    'atomicAdd(ledger.sunk, 0u)' \
+    conformance_tests 'SandTest.RerunsAreBitIdenticalAndTheLedgerIsExact'
+
 # --- heat ---------------------------------------------------------------------------------------------------------------
 
 mutation "heat: what a float cannot hold is lost" \

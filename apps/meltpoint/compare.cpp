@@ -84,6 +84,7 @@ int compare(const CompareOptions& options)
     fixed.emission = {}; // and knows only those who are there, and neither heat nor erosion
     fixed.melting.reset();
     fixed.hydraulic.reset();
+    fixed.wind.reset();
     sections.push_back({"initial state", conformance::compare_passes(context, initial, fixed)});
     if (options.steps > 0) {
         sim::Simulation simulation(context, initial, fixed);

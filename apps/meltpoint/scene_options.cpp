@@ -40,7 +40,7 @@ void add_scene_options(CLI::App& command, SceneOptions& options)
     command
         .add_option("--look", options.look,
                     "What becomes of a mesh or scan that is given as SCENE: drop, filled with fluid; melt, ice in the "
-                    "sun; vanish, dust in the wind; wash, stone in a jet [drop]")
+                    "sun; dune, sand in the wind; vanish, dust that drifts; wash, stone in a jet [drop]")
         ->type_name("LOOK");
     add_set_option(command, options);
     command

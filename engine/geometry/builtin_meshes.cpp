@@ -92,7 +92,53 @@ TriangleMesh torus()
     return mesh;
 }
 
-constexpr std::array<std::string_view, 5> names = {"teapot", "rabbit", "sphere", "cube", "torus"};
+/// A barchan, 2.4 long and 0.36 high, in a wind along x: its windward slope is gentle, its lee slope 32 degrees steep,
+/// both raised cosines, and its horns point downwind. It stands on its flat bottom.
+TriangleMesh dune()
+{
+    constexpr std::uint32_t resolution = 64;
+    constexpr double windward = 1.5;
+    constexpr double lee = 0.9;
+    constexpr double half_width = 0.9;
+    constexpr double height = 0.36;
+    constexpr double horns = 0.35; // how far the flanks lie downwind
+    TriangleMesh mesh;
+    const std::uint32_t stride = resolution + 1;
+    const auto hump = [](double way) { // ends before it is too thin to have a top and a bottom
+        return 0.5 + 0.5 * std::cos(0.9 * std::numbers::pi * way);
+    };
+    for (const double side : {1.0, 0.0}) { // top and bottom
+        const auto first = static_cast<std::uint32_t>(mesh.positions.size());
+        for (std::uint32_t row = 0; row <= resolution; ++row) {
+            for (std::uint32_t column = 0; column <= resolution; ++column) {
+                const double across = 2.0 * row / resolution - 1.0;
+                const double along = 2.0 * column / resolution - 1.0;
+                const bool rim = row % resolution == 0 || column % resolution == 0;
+                const double y = rim ? 0.0 : side * height * hump(along) * hump(across);
+                mesh.positions.emplace_back((along < 0.0 ? windward : lee) * along + horns * across * across, y,
+                                            half_width * across);
+            }
+        }
+        for (std::uint32_t row = 0; row < resolution; ++row) {
+            for (std::uint32_t column = 0; column < resolution; ++column) {
+                const std::uint32_t a = first + row * stride + column;
+                const std::uint32_t b = a + 1;
+                const std::uint32_t c = a + stride;
+                const std::uint32_t d = c + 1;
+                // Cut from the corners inward, or top and bottom would share a triangle there.
+                const bool falling = (2 * row < resolution) == (2 * column < resolution);
+                const std::array<glm::uvec3, 2> cut = falling ? std::array{glm::uvec3(a, c, d), glm::uvec3(a, d, b)}
+                                                              : std::array{glm::uvec3(a, c, b), glm::uvec3(b, c, d)};
+                for (const glm::uvec3& t : cut) {
+                    mesh.triangles.push_back(side > 0.0 ? t : glm::uvec3(t.x, t.z, t.y));
+                }
+            }
+        }
+    }
+    return weld(mesh);
+}
+
+constexpr std::array<std::string_view, 6> names = {"teapot", "rabbit", "sphere", "cube", "torus", "dune"};
 
 /// Levenshtein (1966): insertions, deletions and replacements that turn one word into the other.
 std::size_t edit_distance(std::string_view from, std::string_view to)
@@ -133,6 +179,9 @@ TriangleMesh builtin_mesh(std::string_view name)
     }
     if (name == "torus") {
         return torus();
+    }
+    if (name == "dune") {
+        return dune();
     }
     const std::string_view shown = name.substr(0, 80);
     const std::string_view nearest = *std::min_element(

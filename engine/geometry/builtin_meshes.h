@@ -17,6 +17,7 @@ namespace meltpoint {
 ///   sphere  radius 1 m, around the origin
 ///   cube    edge 1 m, around the origin, no normals
 ///   torus   around the y axis: circle of radius 0.4 m on a circle of radius 1 m
+///   dune    a barchan for a wind along x, 2.75 x 0.36 x 1.8 m, standing on y = 0, no normals; closed
 /// An unknown name is an Input error that offers the nearest known one.
 [[nodiscard]] TriangleMesh builtin_mesh(std::string_view name);
 

@@ -29,7 +29,7 @@ void drift_dust(const Settings& settings, const shared::DustParams& dust, State&
     const glm::dvec3 low(settings.params.domain_min);
     const glm::dvec3 high(settings.params.domain_max);
     for (std::size_t i = 0; i < state.size(); ++i) {
-        if (shared::particle_state(state.attributes[i]) != shared::STATE_DUST) {
+        if (!shared::is_drifting(state.attributes[i])) {
             continue;
         }
         glm::dvec3& v = state.velocity[i];

@@ -18,6 +18,7 @@
 #include "run/hydraulic_settings.h"
 #include "run/plane_scene.h"
 #include "run/scene_warnings.h"
+#include "run/wind_settings.h"
 #include "scene/materials.h"
 #include "scene/scene_check.h"
 
@@ -359,6 +360,7 @@ FluidSettings fluid_settings(const Scene& any_scene, const ParticleSet& particle
     }
     settings.simulation.emission = emission_settings(scene, particles);
     settings.simulation.melting = melting_settings(scene, particles);
+    settings.simulation.wind = wind_settings(scene);
     settings.simulation.hydraulic = hydraulic_settings(scene, particles);
     settings.simulation.fragments = fragment_settings(scene);
     options.still = std::ranges::any_of(particles.attributes, shared::is_boundary);

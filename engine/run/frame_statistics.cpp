@@ -136,10 +136,11 @@ std::string statistics_row(const FrameStatistics& s)
     row += fmt::format(",{},{},{:.3f},{:.3f},{},{},{}", s.outside, cell_or_empty(s.neighbors_mean), s.simulate_ms,
                        s.draw_ms, cell_or_empty(s.iterations_density), cell_or_empty(s.iterations_divergence),
                        cell_or_empty(s.iterations_viscosity));
-    row += fmt::format(",{},{},{},{},{},{},{},{},{},,{}\n", s.deposited ? fmt::format("{}", *s.deposited) : "",
-                       cell_or_empty(s.enthalpy), cell(s.solid_volume), cell_or_empty(s.exposed_area),
-                       s.fragments ? fmt::format("{}", *s.fragments) : "", s.emitted, s.sunk,
-                       cell_or_empty(s.rate_melt), cell_or_empty(s.rate_hydraulic), cell_or_empty(s.rate_dissolve));
+    row +=
+        fmt::format(",{},{},{},{},{},{},{},{},{},{},{}\n", s.deposited ? fmt::format("{}", *s.deposited) : "",
+                    cell_or_empty(s.enthalpy), cell(s.solid_volume), cell_or_empty(s.exposed_area),
+                    s.fragments ? fmt::format("{}", *s.fragments) : "", s.emitted, s.sunk, cell_or_empty(s.rate_melt),
+                    cell_or_empty(s.rate_hydraulic), cell_or_empty(s.rate_wind), cell_or_empty(s.rate_dissolve));
     return row;
 }
 

@@ -55,8 +55,9 @@ struct FrameStatistics {
     std::optional<double> rate_melt;        ///< kg/s that melted, net, mean since the frame before; empty in the first
     std::optional<double> rate_dissolve;    ///< likewise of what fronts have freed
     std::optional<double> rate_hydraulic;   ///< likewise of what flow has carried off, less what has settled
+    std::optional<double> rate_wind;        ///< likewise of what the wind has taken
+    std::optional<std::uint64_t> deposited; ///< particles of sediment and sand that became solid again, since the start
     std::optional<std::uint32_t> fragments; ///< loose pieces of solids; empty where none can break off
-    std::optional<std::uint64_t> deposited; ///< particles of sediment that became solid again, since the start
 };
 
 /// Everything but frame, time, steps, dt, neighbors and wall times.

@@ -20,6 +20,7 @@
 #include "scene/key_table.h"
 #include "scene/liquids.h"
 #include "scene/scene_file.h"
+#include "sim/wind.h"
 
 namespace meltpoint {
 
@@ -191,12 +192,47 @@ void set_wash(Scene& scene, const MeshShape& mesh, const Model& model, double si
     scene.solids.push_back(stone);
 }
 
+/// Sand in the wind, which slides down to its angle of repose where the model is steeper.
+void set_dune(Scene& scene, const MeshShape& mesh, const Model& model, double similarity)
+{
+    const float largest = largest_of(model);
+    const auto size = static_cast<float>(similarity);
+    const float speed = std::sqrt(size); // Froude's similarity
+    scene.description = fmt::format("A {} of sand in the wind.", model.what);
+    scene.solver = Solver::Dfsph;
+    scene.particles.spacing = static_cast<float>(std::cbrt(model.volume / wanted_solid_particles));
+    scene.time.frame_rate = 24.0f / speed;
+    set_box(scene, model, 0.7f * largest, 0.5f * largest);
+    scene.domain.max.x += 0.6f * largest; // where the sand is blown to
+
+    SolidBody sand;
+    sand.shape = mesh;
+    std::get<MeshShape>(sand.shape).position.y = 0.5f * model.extent.y + 0.25f * scene.particles.spacing;
+    sand.rest_density = 1600.0f;
+    sand.wind_erodes = true;
+    sand.solid_color = {0.79f, 0.60f, 0.34f};
+    // What is far larger than life is of gravel in a storm: grains of sand would not fly as far.
+    sand.erosion.grain_size = 250e-6f * std::max(1.0f, size / 5.0f);
+    scene.wind.friction_velocity = 0.5f * std::max(1.0f, speed / 3.0f);
+    scene.wind.roughness_length = std::min(1e-3f * size, 1.0f);
+    scene.wind.hop_length = std::max(0.3f * size, 5.0f * scene.particles.spacing);
+    // Of flat ground as much is gone in a frame at any size.
+    const double flux = sim::bagnold_flux({.friction_velocity = static_cast<double>(scene.wind.friction_velocity)},
+                                          {.grain_size = static_cast<double>(*sand.erosion.grain_size)}, 9.81);
+    const double lost = flux / (static_cast<double>(scene.wind.hop_length) * 1600.0); // m/s
+    scene.wind.time_scale = static_cast<float>(0.06 * std::sqrt(similarity) / lost);
+    scene.solids.push_back(sand);
+}
+
 } // namespace
 
 std::span<const LookName> look_names()
 {
-    static constexpr std::array<LookName, 4> names{
-        {{"drop", Look::Drop}, {"melt", Look::Melt}, {"vanish", Look::Vanish}, {"wash", Look::Wash}}};
+    static constexpr std::array<LookName, 5> names{{{"drop", Look::Drop},
+                                                    {"melt", Look::Melt},
+                                                    {"dune", Look::Dune},
+                                                    {"vanish", Look::Vanish},
+                                                    {"wash", Look::Wash}}};
     return names;
 }
 
@@ -224,6 +260,9 @@ Scene mesh_scene(const std::string& name, Look look)
         break;
     case Look::Melt:
         set_melt(scene, mesh, model, similarity);
+        break;
+    case Look::Dune:
+        set_dune(scene, mesh, model, similarity);
         break;
     case Look::Vanish:
         set_vanish(scene, mesh, model, similarity);

@@ -10,7 +10,7 @@
 namespace meltpoint {
 
 /// What becomes of a mesh or a scan that is given without a scene.
-enum class Look { Drop, Melt, Vanish, Wash };
+enum class Look { Drop, Melt, Dune, Vanish, Wash };
 
 /// A look's name on the command line.
 struct LookName {

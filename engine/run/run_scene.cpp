@@ -343,7 +343,11 @@ public:
                 statistics.fragments = fragments->bodies();
             }
             statistics.sunk = ledger.sunk;
-            if (has_hydraulic(scene_)) {
+            if (simulation->wind() != nullptr && picked_up_ && statistics.time > time_) {
+                statistics.rate_wind = (simulation->picked_up() - *picked_up_) / (statistics.time - time_);
+            }
+            picked_up_ = simulation->picked_up();
+            if (has_hydraulic(scene_) || has_sand(scene_)) {
                 statistics.deposited = simulation->deposited();
             }
             if (const auto heat = simulation->heat_statistics(particles)) {
@@ -383,6 +387,7 @@ private:
     bool warned_of_cap_ = false;
     bool warned_of_births_ = false;
     std::optional<std::array<double, 8>> freed_mass_; ///< kg, at the frame before
+    std::optional<double> picked_up_;                 ///< kg, likewise
     double time_ = 0.0;                               ///< s, of it
 };
 

@@ -23,7 +23,10 @@ struct Material {
     ThermalProperties thermal{}; ///< where heat is followed
     float temperature = 0.0f;    ///< degrees C, at the start
     bool melts = false;
-    float absorptivity = 0.0f;                ///< of the sun's power, of solids
+    float absorptivity = 0.0f; ///< of the sun's power, of solids
+    bool wind_erodes = false;
+    SandProperties sand{};
+    float sand_grain = 0.0f;                  ///< m, of sand
     Erodibility erosion{};                    ///< of solids that flow erodes
     SolidAnchor anchor = SolidAnchor::Ground; ///< of solids
     float sliding_friction = 0.0f;            ///< mu, of solids
@@ -100,11 +103,14 @@ inline SceneMaterials scene_materials(const Scene& scene)
         Material material = warm_material(body, true);
         material.melts = body.melts;
         material.absorptivity = heat ? body.absorptivity : 0.0f;
+        material.wind_erodes = body.wind_erodes;
+        material.sand = body.wind_erodes ? body.sand : SandProperties{};
+        material.sand_grain = body.wind_erodes ? body.erosion.grain_size.value_or(usual_sand_grain) : 0.0f;
         material.erosion = body.erosion.erodes ? body.erosion : Erodibility{};
         material.friction = body.friction;
         material.contact_angle = body.contact_angle;
         material.solid_color = body.solid_color;
-        material.anchor = body.anchor;
+        material.anchor = anchor_of(body);
         material.sliding_friction = body.sliding_friction;
         result.of_solid.push_back(index_of(material));
     }

@@ -146,6 +146,18 @@ struct DissolveFront {
     float grain = 0.1f;                 ///< m, size of the coarsest unevenness
 };
 
+/// m, of a solid of sand that does not say how large its grains are.
+constexpr float usual_sand_grain = 250e-6f;
+
+/// What a solid of sand consists of, apart from the size of its grains.
+struct SandProperties {
+    float grain_density = 2650.0f; ///< kg/m^3, of the mineral
+    float cohesion = 3e-4f;        ///< N/m, gamma of Shao & Lu 2000
+    float repose_angle = 34.0f;    ///< degrees
+
+    bool operator==(const SandProperties&) const = default;
+};
+
 enum class SolidBecomes { Fluid, Dust };
 
 /// What holds a solid in its place: the walls and colliders that it touches, all of itself, or nothing.
@@ -155,7 +167,7 @@ enum class SolidAnchor { Ground, All, None };
 struct Erodibility {
     bool erodes = false;
     float threshold = 1.0f;          ///< tau_c, Pa, where there is no grain size
-    std::optional<float> grain_size; ///< m, whose threshold is that of Shields
+    std::optional<float> grain_size; ///< m: in flow the threshold is that of Shields; of sand
     float rate = 10.0f;              ///< K_eps, kg/(m^2 s Pa^exponent)
     float exponent = 1.0f;           ///< a
     bool deposits = true;            ///< its sediment becomes solid again
@@ -176,6 +188,8 @@ struct SolidBody : FluidBody {
     DissolveFront dissolve;
     bool melts = false;        ///< where heat has brought it to the end of its melting point
     float absorptivity = 0.7f; ///< part of the sun's power that it takes in
+    bool wind_erodes = false;  ///< sand: the wind takes it, and it slides where it is too steep
+    SandProperties sand;
     Erodibility erosion;
     SolidAnchor anchor = SolidAnchor::Ground;
     float sliding_friction = 0.5f; ///< mu, Coulomb's, of what breaks off it on anything
@@ -226,6 +240,17 @@ struct HeatSettings {
     glm::vec3 sun_direction{-0.4f, -1.0f, -0.35f}; ///< that its light travels in, of any length but 0
     float air_temperature = 20.0f;                 ///< degrees C
     float air_transfer = 10.0f;                    ///< W/(m^2 K), from air to surfaces
+};
+
+/// The wind that blows over sand, and what it takes along.
+struct WindSettings {
+    glm::vec3 direction{1.0f, 0.0f, 0.0f}; ///< that it blows in, of any length but 0; level
+    float friction_velocity = 0.0f;        ///< u*, m/s; 0: there is none
+    float roughness_length = 1e-3f;        ///< z0, m
+    float air_density = 1.2f;              ///< kg/m^3
+    float flux = 1.8f;                     ///< C of Bagnold 1941
+    float hop_length = 0.3f;               ///< m
+    float time_scale = 1.0f;               ///< seconds of erosion in one of motion
 };
 
 /// The flow that erodes, and how its sediment settles (shared/hydraulic.h).
@@ -310,6 +335,7 @@ struct Scene {
     PbfSettings pbf;
     DustSettings dust;
     HeatSettings heat;
+    WindSettings wind;
     HydraulicSettings hydraulic;
     TimeSettings time;
     std::vector<FluidBody> fluids;
@@ -322,10 +348,16 @@ struct Scene {
     RenderSettings render;
 };
 
+/// What holds a solid. Sand holds itself: it is no piece that breaks off, but falls grain by grain.
+[[nodiscard]] inline SolidAnchor anchor_of(const SolidBody& body)
+{
+    return body.wind_erodes ? SolidAnchor::All : body.anchor;
+}
+
 /// Whether pieces of solids may break off and move.
 [[nodiscard]] inline bool has_fragments(const Scene& scene)
 {
-    return std::ranges::any_of(scene.solids, [](const SolidBody& body) { return body.anchor != SolidAnchor::All; });
+    return std::ranges::any_of(scene.solids, [](const SolidBody& body) { return anchor_of(body) != SolidAnchor::All; });
 }
 
 /// Whether heat is followed: something melts, or has a temperature of its own.
@@ -339,6 +371,12 @@ struct Scene {
            std::ranges::any_of(scene.colliders, has_temperature) ||
            std::ranges::any_of(scene.emitters,
                                [&](const EmitterBody& emitter) { return has_temperature(emitter.fluid); });
+}
+
+/// Whether there is sand.
+[[nodiscard]] inline bool has_sand(const Scene& scene)
+{
+    return std::ranges::any_of(scene.solids, &SolidBody::wind_erodes);
 }
 
 /// Whether flow erodes anything.

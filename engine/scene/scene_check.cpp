@@ -41,6 +41,7 @@ public:
         check_fluids();
         check_flow();
         check_heat();
+        check_wind();
         check_hydraulic();
         check_plates("collider", scene_.colliders);
         check_plates("surface", scene_.surfaces);
@@ -244,6 +245,25 @@ private:
         }
         for (std::size_t i = 0; i < scene_.emitters.size(); ++i) {
             check_temperature(fmt::format("emitter.{}.", i), scene_.emitters[i].fluid, false);
+        }
+    }
+
+    void check_wind() const
+    {
+        if (!has_sand(scene_)) {
+            return;
+        }
+        const glm::vec3& gravity = scene_.physics.gravity;
+        if (gravity == glm::vec3(0.0f)) {
+            fail("physics.gravity", "is [0, 0, 0], but sand needs some to come down");
+        }
+        if (glm::length(glm::cross(scene_.wind.direction, gravity)) == 0.0f) {
+            fail("wind.direction", "does not lead over the ground: it is along gravity, or has no length");
+        }
+        for (std::size_t i = 0; i < scene_.solids.size(); ++i) {
+            if (scene_.solids[i].wind_erodes && scene_.solids[i].melts) {
+                fail(fmt::format("solid.{}.melts", i), "is true, but it is sand (wind_erodes), which does not melt");
+            }
         }
     }
 

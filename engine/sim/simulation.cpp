@@ -123,6 +123,10 @@ Simulation::Simulation(const gpu::Context& context, const ParticleSet& particles
         if (settings.melting) {
             melting_.emplace(context, options_, params_, *settings.melting, particles.attributes);
         }
+        if (settings.wind) {
+            wind_.emplace(context, params_, *settings.wind);
+            wind_->record_start(*commands_);
+        }
         if (settings.hydraulic) {
             hydraulic_.emplace(context, options_, *settings.hydraulic, params_.pool_count);
             hydraulic_->record_start(*commands_);
@@ -130,14 +134,14 @@ Simulation::Simulation(const gpu::Context& context, const ParticleSet& particles
         if (settings.fragments) {
             fragments_.emplace(context, options_, params_, *settings.fragments);
         }
-        if (settings.melting || settings.hydraulic) {
+        if (settings.melting || settings.hydraulic || settings.wind) {
             exposure_.emplace(context, options_, params_.pool_count);
         }
         gone_ = static_cast<std::uint32_t>(std::ranges::count_if(particles.attributes, shared::is_gone));
         if (settings.dust) {
             dust_.emplace(context, *settings.dust);
         }
-        if (settings.dust || !settings.emission.empty()) { // the ledger is that of dust, too
+        if (settings.dust || settings.wind || !settings.emission.empty()) { // the ledger is that of dust, too
             emission_.emplace(context, settings.emission);
         }
     }
@@ -149,6 +153,9 @@ Simulation::Simulation(const gpu::Context& context, const ParticleSet& particles
     record_surface(*commands_);
     commands_->submit();
     commands_->wait();
+    if (wind_) {
+        wind_->spread_start(context, *exposure_);
+    }
 }
 
 std::uint32_t Simulation::steps_a_submission() const
@@ -178,6 +185,7 @@ std::uint32_t Simulation::look_interval() const
     double longest = std::numeric_limits<double>::infinity();
     longest = melting_ ? std::min(longest, melting_->longest_look()) : longest;
     longest = hydraulic_ ? std::min(longest, hydraulic_->longest_look()) : longest;
+    longest = wind_ ? std::min(longest, wind_->longest_look()) : longest;
     const double longest_dt = static_cast<double>(time_.adaptive() ? params_.longest_dt : params_.dt);
     return static_cast<std::uint32_t>(std::clamp(longest / longest_dt, 1.0, static_cast<double>(interval)));
 }
@@ -194,6 +202,9 @@ void Simulation::record_surface(gpu::Commands& commands) const
     }
     if (melting_) {
         melting_->record_surface(commands, params_buffer_, particles_, *exposure_);
+    }
+    if (wind_) {
+        wind_->record_surface(commands, params_buffer_, particles_, *exposure_);
     }
 }
 
@@ -228,6 +239,9 @@ void Simulation::erode(double time)
         hydraulic_->record_changes(commands, params_buffer_, particles_, grid_, erosion_->release_time(),
                                    erosion_->changes(), time, seconds);
     }
+    if (wind_) {
+        wind_->record_changes(commands, params_buffer_, particles_, *exposure_, erosion_->changes(), seconds);
+    }
     if (emission_) {
         emission_->record_calls(commands, params_buffer_, particles_, erosion_->release_time(), erosion_->changes(),
                                 gone_, time, time + longest_time(interval));
@@ -240,12 +254,13 @@ void Simulation::erode(double time)
     if (emission_) {
         emission_->note_called(found);
     }
+    note_picked_up(found);
     deposited_ += found.deposited;
     params_.moving_count += found.freed + called - found.died - found.frozen - found.deposited;
     particles_.moving = params_.moving_count;
     gone_ += found.died - called;
     const bool solids_change =
-        found.freed + found.freed_loose + found.frozen + found.frozen_loose + found.deposited > 0;
+        found.freed + found.freed_loose + found.frozen + found.frozen_loose + found.deposited + found.slid > 0;
     const bool surface_moves = has_loose && exposure_;
     if (!solids_change && !surface_moves && found.died + called == 0) {
         return;
@@ -295,6 +310,14 @@ void Simulation::part_pool()
     commands.wait();
 }
 
+void Simulation::note_picked_up(const shared::PoolChanges& found)
+{
+    for (std::uint32_t material = 0; material < shared::MAX_MATERIALS; ++material) {
+        picked_up_ += found.picked_up[material] * static_cast<double>(params_.rest_density[material]) *
+                      static_cast<double>(params_.lattice_volume);
+    }
+}
+
 Simulation::Readback Simulation::submit_steps(std::uint32_t steps, double start)
 {
     const double fixed_dt = time_.adaptive() ? 0.0 : static_cast<double>(params_.dt);
@@ -306,6 +329,9 @@ Simulation::Readback Simulation::submit_steps(std::uint32_t steps, double start)
         const auto at = static_cast<float>(start + (i + 1) * fixed_dt);
         if (dust_) {
             dust_->record(*commands_, fluid(), erosion_->release_time(), emission_->ledger(), at);
+        }
+        if (wind_) {
+            wind_->record_step(*commands_, fluid(), emission_->ledger());
         }
         if (emission_) {
             emission_->record_step(*commands_, fluid(), erosion_->release_time(), at);
@@ -384,6 +410,7 @@ std::uint64_t Simulation::device_bytes() const
     sum += erosion_ ? erosion_->device_bytes() : 0;
     sum += emission_ ? emission_->device_bytes() : 0;
     sum += melting_ ? melting_->device_bytes() : 0;
+    sum += wind_ ? wind_->device_bytes() : 0;
     sum += hydraulic_ ? hydraulic_->device_bytes() : 0;
     sum += exposure_ ? exposure_->device_bytes() : 0;
     sum += fragments_ ? fragments_->device_bytes() : 0;
@@ -558,8 +585,8 @@ Simulation::BoundaryForceMeans Simulation::take_boundary_forces()
 void Simulation::enable_timings()
 {
     const std::uint32_t scopes = solver_->scopes() + vorticity_.scopes() + (viscosity_ ? 1 : 0) + (shifting_ ? 1 : 0) +
-                                 (capillarity_ ? 1 : 0) + (dust_ ? 1 : 0) + (fragments_ ? Fragments::scopes() : 0) +
-                                 (emission_ ? emission_->scopes() : 0);
+                                 (capillarity_ ? 1 : 0) + (dust_ ? 1 : 0) + (wind_ ? Wind::scopes() : 0) +
+                                 (fragments_ ? Fragments::scopes() : 0) + (emission_ ? emission_->scopes() : 0);
     commands_ = std::make_unique<gpu::Commands>(*context_, max_steps_per_submission * scopes);
 }
 

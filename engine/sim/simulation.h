@@ -21,6 +21,7 @@
 #include "sim/melting.h"
 #include "sim/neighbor_grid.h"
 #include "sim/solver.h"
+#include "sim/wind.h"
 
 namespace meltpoint::sim {
 
@@ -33,6 +34,7 @@ struct SimulationSettings {
     std::optional<MeltingSettings> melting;     ///< where heat is followed
     std::optional<HydraulicSettings> hydraulic; ///< where flow erodes solids
     std::optional<FragmentSettings> fragments;  ///< where pieces of solids may come loose
+    std::optional<WindSettings> wind;           ///< where there is sand
 };
 
 /// The params with the numbers of particles and the grid size filled in: all of them move.
@@ -97,9 +99,13 @@ public:
     /// J/kg, by id; empty where heat is not followed. Waits.
     [[nodiscard]] std::vector<double> enthalpy() const;
 
+    /// kg of sand that the wind has taken since the start.
+    [[nodiscard]] double picked_up() const { return picked_up_; }
+    /// Where there is sand.
+    [[nodiscard]] const Wind* wind() const { return wind_ ? &*wind_ : nullptr; }
     /// How far hydraulic erosion has come, 0 to 1, by id; empty where nothing erodes. Waits.
     [[nodiscard]] std::vector<double> damage() const;
-    /// Particles of sediment that have become solid again since the start.
+    /// Particles of sediment and sand that have become solid again since the start.
     [[nodiscard]] std::uint64_t deposited() const { return deposited_; }
 
     /// Pieces of solids that nothing holds; null where none can come loose.
@@ -163,6 +169,7 @@ private:
     void part_pool();
     /// Pieces that nothing holds come loose, at `time` in s since the start: whenever others are solid.
     void loosen_pieces(double time);
+    void note_picked_up(const shared::PoolChanges& found);
     /// Where solids are exposed and what of them is seen: whenever others are solid.
     void record_surface(gpu::Commands& commands) const;
     /// Throws where there is a fault; `time` of it in s since the start.
@@ -203,6 +210,7 @@ private:
     std::optional<Emission> emission_;
     std::optional<Exposure> exposure_; ///< where a driver asks for it
     std::optional<Melting> melting_;
+    std::optional<Wind> wind_;
     std::optional<Hydraulic> hydraulic_;
     std::optional<Fragments> fragments_;
     ParticleBuffers particles_;
@@ -215,6 +223,7 @@ private:
     std::unique_ptr<BoundaryForces> boundary_forces_;
     std::unique_ptr<gpu::Commands> commands_;
     std::unique_ptr<gpu::Commands> erosion_commands_; ///< apart, so that timings() are those of steps
+    double picked_up_ = 0.0;                          ///< kg
     std::uint64_t step_ = 0;
     std::uint64_t next_erosion_ = 0;    ///< the step before which solids are looked at
     double looked_at_ = 0.0;            ///< s, when that was done last

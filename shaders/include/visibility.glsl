@@ -11,6 +11,14 @@ vec3 map_place(vec3 x)
     return vec3(dot(offset, view.right) / view.texel, dot(offset, view.up) / view.texel, dot(offset, view.direction));
 }
 
+// In steps. Exactly the same in all shaders: who is seen on the map has its depth.
+uint depth_of(vec3 x)
+{
+    precise float depth = dot(x - view.origin, view.direction);
+    precise float steps = clamp(depth * view.depth_scale, 0.0, float(DEPTH_STEPS - 1u));
+    return uint(steps);
+}
+
 // How much of the surface at x, with the unit normal n, is seen, 0 to 1. What lies beside the map is seen.
 float seen_share(vec3 x, vec3 n)
 {

@@ -219,17 +219,21 @@ void main()
 {
     int samples = int(params.samples);
     ivec2 first = ivec2(gl_FragCoord.xy) * samples;
+    // Within a pixel a surface hardly changes: each is shaded once, where its first sample is, as often as it has samples.
+    // They are found one after the other: whoever runs many pixels at once runs all of them as often as one needs it.
+    int count = samples * samples;
     vec3 sum = vec3(0.0);
-    vec3 color;
-    uint previous;
-    for (int i = 0; i < samples * samples; ++i) {
-        ivec2 at = first + ivec2(i % samples, i / samples);
+    uint done = 0u; // bits of samples
+    while (done != (1u << count) - 1u) {
+        int start = findLSB(~done);
+        ivec2 at = first + ivec2(start % samples, start / samples);
         uint surface = texelFetch(visibility, at, 0).r;
-        if (i == 0 || surface != previous) { // within a pixel a surface hardly changes: shade it once
-            color = sample_color(surface, vec2(at) + 0.5);
-            previous = surface;
+        uint same = 0u;
+        for (int i = start; i < count; ++i) {
+            same |= texelFetch(visibility, first + ivec2(i % samples, i / samples), 0).r == surface ? 1u << i : 0u;
         }
-        sum += color;
+        sum += float(bitCount(same)) * sample_color(surface, vec2(at) + 0.5);
+        done |= same;
     }
-    out_color = vec4(sum / float(samples * samples), 1.0);
+    out_color = vec4(sum / float(count), 1.0);
 }

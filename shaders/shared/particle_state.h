@@ -47,8 +47,19 @@ SHARED_CONSTANT uint CAUSE_NONE = 0u;
 SHARED_CONSTANT uint CAUSE_FRONT = 1u;
 SHARED_CONSTANT uint CAUSE_MELT = 2u;
 SHARED_CONSTANT uint CAUSE_HYDRAULIC = 3u;
-SHARED_CONSTANT uint CAUSE_FRAGMENT = 6u; // of a piece too small to be one (shared/rigid.h)
+SHARED_CONSTANT uint CAUSE_WIND = 4u; // it hops, or falls off a slope (shared/wind.h)
+SHARED_CONSTANT uint CAUSE_FRAGMENT = 5u; // of a piece too small to be one (shared/rigid.h)
 SHARED_FUNCTION uint cause_of(uint attributes) { return (attributes >> CAUSE_SHIFT) & 7u; } // CAUSE_*
+// Dust that drifts with the air until its life is over: not sand, which comes down again.
+SHARED_FUNCTION bool is_drifting(uint attributes)
+{
+    return particle_state(attributes) == STATE_DUST && cause_of(attributes) != CAUSE_WIND;
+}
+// Sand in the air, which does.
+SHARED_FUNCTION bool is_flying_sand(uint attributes)
+{
+    return particle_state(attributes) == STATE_DUST && cause_of(attributes) == CAUSE_WIND;
+}
 SHARED_FUNCTION uint freed_as(uint attributes, uint state, uint cause)
 {
     return (with_state(attributes, state) & ~(FLAG_LOOSE | 7u << CAUSE_SHIFT)) | (cause << CAUSE_SHIFT);

@@ -37,7 +37,7 @@ vec3 air_velocity(vec3 x, float time)
 void main()
 {
     uint i = invocation_index();
-    if (i >= params.moving_count || particle_state(attributes[i]) != STATE_DUST) {
+    if (i >= params.moving_count || !is_drifting(attributes[i])) {
         return;
     }
     float time = start + step.elapsed;

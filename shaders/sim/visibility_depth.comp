@@ -22,7 +22,7 @@ void main()
         return;
     }
     vec3 place = map_place(position[i].xyz);
-    uint depth = uint(clamp(place.z * view.depth_scale, 0.0, float(DEPTH_STEPS - 1u)));
+    uint depth = depth_of(position[i].xyz);
     float radius = CASTER_RADIUS * view.spacing / view.texel;
     ivec2 first = max(ivec2(floor(place.xy - radius)), ivec2(0));
     ivec2 last = min(ivec2(floor(place.xy + radius)), ivec2(view.width, view.height) - 1);

@@ -191,10 +191,11 @@ TEST(MeshScene, LargestAndSmallestMeshesMakeValidScenes)
 
 TEST(MeshScene, SolidsOfLooksStandOnTheFloor)
 {
-    for (const Look look : {Look::Melt, Look::Vanish, Look::Wash}) {
+    for (const Look look : {Look::Melt, Look::Dune, Look::Vanish, Look::Wash}) {
         const Scene scene = find_scene("builtin:torus", std::vector<std::string>{"particles.spacing=0.1"}, look);
         ASSERT_EQ(scene.solids.size(), 1u);
         EXPECT_EQ(scene.solids[0].melts, look == Look::Melt);
+        EXPECT_EQ(scene.solids[0].wind_erodes, look == Look::Dune);
         EXPECT_EQ(scene.solids[0].erosion.erodes, look == Look::Wash);
         EXPECT_EQ(scene.solids[0].becomes == SolidBecomes::Dust, look == Look::Vanish);
         const ParticleSet set = make_particles(scene, 1'000'000);

@@ -600,6 +600,7 @@ Scene random_scene(std::uint64_t seed)
     }
     for (SolidBody& solid : scene.solids) { // neither heat nor flow turns any into dust
         solid.temperature = solid.thermal.melting_point - 3.5f;
+        solid.melts = solid.melts && !solid.wind_erodes; // nor does sand melt
         solid.becomes = solid.melts || solid.erosion.erodes ? SolidBecomes::Fluid : solid.becomes;
         solid.erosion.grain_size = std::nullopt; // grains are heavier than the fluid
     }
