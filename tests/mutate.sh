@@ -855,11 +855,6 @@ mutation "fragments: colliders hold nothing" \
     'anchor == ANCHOR_ALL || touches_wall(x) || touches_collider(x)' \
     'anchor == ANCHOR_ALL || touches_wall(x)' \
     conformance_tests 'FragmentsTest.PiecesAreTheTwins'
-mutation "fragments: loose pieces that land are held" \
-    shaders/sim/piece_census.comp \
-    'if (is_loose(attributes[i]) || anchor == ANCHOR_NONE)' \
-    'if (anchor == ANCHOR_NONE)' \
-    conformance_tests 'FragmentsTest.WhatHasLandedIsLooseStill'
 mutation "fragments: small pieces fall, too" \
     shaders/sim/piece_loosen.comp \
     'piece.size < LEAST_PIECE' \

@@ -323,7 +323,8 @@ SceneParticles make_scene_particles(const Scene& any_scene, std::uint64_t limit)
         throw_too_many(scene, static_cast<double>(result.particles.size()), limit);
     }
     const bool has_front = std::ranges::any_of(release, [](float time) { return std::isfinite(time); });
-    if (has_front || has_heat(scene) || has_hydraulic(scene) || has_sand(scene) || has_fragments(scene) || !emission.empty()) {
+    if (has_front || has_heat(scene) || has_hydraulic(scene) || has_sand(scene) || has_fragments(scene) ||
+        !emission.empty()) {
         release.resize(result.particles.size(), std::numeric_limits<float>::infinity());
         result.particles.release_time = std::move(release);
     }

@@ -110,7 +110,7 @@ inline SceneMaterials scene_materials(const Scene& scene)
         material.friction = body.friction;
         material.contact_angle = body.contact_angle;
         material.solid_color = body.solid_color;
-        material.anchor = body.wind_erodes ? SolidAnchor::All : body.anchor; // sand is not one piece
+        material.anchor = anchor_of(body);
         material.sliding_friction = body.sliding_friction;
         result.of_solid.push_back(index_of(material));
     }

@@ -348,11 +348,16 @@ struct Scene {
     RenderSettings render;
 };
 
+/// What holds a solid. Sand holds itself: it is no piece that breaks off, but falls grain by grain.
+[[nodiscard]] inline SolidAnchor anchor_of(const SolidBody& body)
+{
+    return body.wind_erodes ? SolidAnchor::All : body.anchor;
+}
+
 /// Whether pieces of solids may break off and move.
 [[nodiscard]] inline bool has_fragments(const Scene& scene)
 {
-    return std::ranges::any_of(
-        scene.solids, [](const SolidBody& body) { return body.anchor != SolidAnchor::All && !body.wind_erodes; });
+    return std::ranges::any_of(scene.solids, [](const SolidBody& body) { return anchor_of(body) != SolidAnchor::All; });
 }
 
 /// Whether heat is followed: something melts, or has a temperature of its own.
