@@ -5,6 +5,7 @@
 // sphere, the tangents from the eye. Whatever crosses the near plane is bounded by its part beyond it.
 #ifndef SPLAT_GLSL
 #define SPLAT_GLSL
+#include "include/tangent_frame.glsl"
 #include "shared/particle_state.h"
 
 #include "shared/render_params.h"
@@ -179,7 +180,19 @@ vec4 quad_vertex(SplatCamera camera, vec4 bound, float nearest, uint vertex)
     return vec4(ndc, min(depth_at(camera, max(nearest, camera.near_distance)) * slack, 1.0), 1.0);
 }
 
-// The radius of a particle's sphere: dust shrinks with what is left of it, which lies in its density.
+// A disc's normal where it is met, q off its center, all in one space: `normal` in the middle, and bend.x, y, z say how much
+// of u, of u and v, and of v it takes on a meter along u, along v and u, and along v (tangent_frame).
+vec3 bent_normal(vec3 normal, vec3 bend, vec3 q)
+{
+    vec3 u;
+    vec3 v;
+    tangent_frame(normal, u, v);
+    vec2 at = vec2(dot(q, u), dot(q, v));
+    return normalize(normal + dot(bend.xy, at) * u + dot(bend.yz, at) * v);
+}
+
+// The radius of a particle's sphere where it has no size of its own: dust shrinks with what is left of it, which lies in its
+// density.
 float particle_radius(float radius, uint attributes, float density)
 {
     return particle_state(attributes) == STATE_DUST ? radius * pow(density, 1.0 / 3.0) : radius;

@@ -1,0 +1,64 @@
+#version 460
+#extension GL_GOOGLE_include_directive : require
+// The disc of each solid particle at the surface, and how wet it is (shared/solid_splats.h). Twin: engine/reference/solid_splats.cpp.
+#include "include/invocation.glsl"
+#include "shared/particle_state.h"
+#include "shared/render_params.h"
+#include "shared/solid_splats.h"
+
+layout(push_constant, scalar) uniform Push { SolidSplatPush push; };
+layout(set = 0, binding = 0, scalar) uniform Params { SphParams params; };
+layout(set = 0, binding = 1, scalar) uniform Splats { SolidSplatParams splats; };
+layout(set = 0, binding = 2, scalar) readonly buffer CellStart { uint cell_start[]; };
+layout(set = 0, binding = 3, scalar) readonly buffer Living { vec4 living[]; };
+layout(set = 0, binding = 4) uniform textureBuffer living_texels;
+layout(set = 0, binding = 5, scalar) readonly buffer Id { uint id[]; };
+layout(set = 0, binding = 6, scalar) readonly buffer Attributes { uint attributes[]; };
+layout(set = 0, binding = 7, scalar) buffer Wet { float wet[]; };   // by id, 0 .. 1
+layout(set = 0, binding = 8, scalar) buffer Size { float size[]; }; // of balls
+layout(set = 0, binding = 9, scalar) writeonly buffer DiscPosition { vec4 disc_position[]; };
+layout(set = 0, binding = 10, scalar) writeonly buffer DiscNormal { vec4 disc_normal[]; };
+layout(set = 0, binding = 11, scalar) writeonly buffer DiscColor { vec4 disc_color[]; };
+layout(set = 0, binding = 12, scalar) writeonly buffer DiscBend { vec4 disc_bend[]; };
+
+#include "include/solid_field.glsl"
+
+void main()
+{
+    uint i = invocation_index();
+    if (i >= params.pool_count) {
+        return;
+    }
+    uint disc = push.first_disc + i;
+    disc_position[disc] = vec4(0.0);
+    float left = living[i].w;
+    if (particle_state(attributes[i]) != STATE_SOLID || left <= 0.0) {
+        return;
+    }
+    vec3 x = living[i].xyz;
+    SolidField here = solid_field(x);
+    float area = 2.0 * params.spacing * length(here.gradient);
+    float exposed = smooth_ramp(EXPOSED_FROM, EXPOSED_FULLY, area);
+    float thin = (1.0 - exposed) * (1.0 - smooth_ramp(THIN_FULLY, THIN_FROM, here.filling));
+    float dying = smooth_ramp(DYING_FROM, 1.0, 1.0 - left);
+    size[i] = max(size[i], thin * (1.0 - dying));
+    if (exposed <= 0.0) {
+        return;
+    }
+    uint slot = id[i];
+    float target = min(here.fluid / WET_FILLING, 1.0);
+    float before = wet[slot];
+    float now = target + (before - target) * exp(-push.seconds / (target > before ? WETTING_TIME : DRYING_TIME));
+    wet[slot] = now;
+
+    float steepness = length(here.gradient);
+    vec3 normal = -here.gradient / steepness;
+    float depth = depth_below_surface(here.filling);
+    vec3 center = x + (depth - PARTICLE_SPLAT_DEPTH) * params.spacing * normal;
+    float radius = PARTICLE_SPLAT_RADIUS * params.spacing * exposed * (1.0 - dying);
+    uint material = particle_material(attributes[i]);
+    disc_position[disc] = vec4(center, radius);
+    disc_normal[disc] = vec4(normal, DISC_BENT);
+    disc_color[disc] = vec4(splats.color[material] * mix(1.0, splats.wet_albedo[material], now), 1.0);
+    disc_bend[disc] = vec4(0.0, 0.0, 0.0, now);
+}
