@@ -130,6 +130,13 @@ glm::dvec3 bend(const std::vector<Disc>& discs, const State& state, std::size_t 
     return glm::clamp(glm::dvec3(map[0][0], 0.5 * (map[0][1] + map[1][0]), map[1][1]), -most, most);
 }
 
+/// How much there is of a hosted splat.
+double left_of(const shared::HostedSplat& splat, const std::vector<double>& left)
+{
+    const double least = std::min({left[splat.host.x], left[splat.host.y], left[splat.host.z]});
+    return 1.0 - smooth_ramp(shared::DYING_FROM, 1.0f, 1.0 - std::max(least, 0.0));
+}
+
 Disc hosted_disc(const shared::HostedSplat& splat, double spacing, const State& state, const SolidSplats& found)
 {
     const glm::dvec3 a = state.position[splat.host.x];
@@ -137,19 +144,17 @@ Disc hosted_disc(const shared::HostedSplat& splat, double spacing, const State& 
     const glm::dvec3 second = state.position[splat.host.z] - a;
     const glm::dmat3 frame(first, second, glm::cross(first, second) / spacing);
     double mean = 0.0;
-    double worst = 0.0;
     double wet = 0.0;
     for (int k = 0; k < 3; ++k) {
         const double progress = 1.0 - std::max(found.left[splat.host[k]], 0.0);
         const double weight = static_cast<double>(splat.weight[k]);
         mean += weight * progress;
-        worst = std::max(worst, progress);
         wet += weight * found.wet[splat.host[k]];
     }
     const double recession = static_cast<double>(shared::RECESSION) * spacing * mean;
     const glm::dvec3 normal = glm::normalize(frame * glm::dvec3(splat.normal));
     return {.center = a + frame * glm::dvec3(splat.offset) - recession * normal,
-            .radius = static_cast<double>(splat.radius) * (1.0 - smooth_ramp(shared::DYING_FROM, 1.0f, worst)),
+            .radius = static_cast<double>(splat.radius) * left_of(splat, found.left),
             .normal = normal,
             .color = glm::dvec3(splat.color) * (1.0 + wet * (static_cast<double>(splat.wet_albedo) - 1.0)),
             .bend = frame * glm::dvec3(splat.edge),
@@ -160,13 +165,18 @@ Disc hosted_disc(const shared::HostedSplat& splat, double spacing, const State& 
 } // namespace
 
 SolidSplats solid_splats(const Settings& settings, const shared::SolidSplatParams& splats, const State& state,
-                         const SplatSources& sources, std::span<const double> wet)
+                         const SplatSources& sources, const SolidSplats& before)
 {
     const double spacing = static_cast<double>(settings.params.spacing);
     SolidSplats found{.left = std::vector<double>(state.size()),
                       .size = std::vector<double>(state.size()),
-                      .wet = {wet.begin(), wet.end()},
+                      .wet = before.wet,
+                      .start = before.start,
+                      .gone = before.gone,
                       .particle = std::vector<Disc>(state.size())};
+    found.wet.resize(state.size(), 0.0);
+    found.start.resize(state.size(), 0.0);
+    found.gone.resize(sources.hosted.size(), false);
     for (std::size_t i = 0; i < state.size(); ++i) {
         const std::uint32_t its_state = shared::particle_state(state.attributes[i]);
         found.left[i] = its_state == shared::STATE_SOLID   ? 1.0 - progress(splats, state, sources, i)
@@ -184,19 +194,27 @@ SolidSplats solid_splats(const Settings& settings, const shared::SolidSplatParam
         const double thin = (1.0 - exposed) * (1.0 - smooth_ramp(shared::THIN_FULLY, shared::THIN_FROM, field.filling));
         const double living = 1.0 - smooth_ramp(shared::DYING_FROM, 1.0f, 1.0 - found.left[i]);
         found.size[i] = std::max(found.size[i], thin * living);
+        found.start[i] = found.start[i] > 0.0 ? found.start[i] : field.filling;
         if (exposed <= 0.0) {
             return;
         }
+        const double eroded =
+            smooth_ramp(shared::ERODED_FROM, shared::ERODED_FULLY, 1.0 - field.filling / found.start[i]);
         const double target = std::min(field.fluid / static_cast<double>(shared::WET_FILLING), 1.0);
         const float time = target > found.wet[i] ? shared::WETTING_TIME : shared::DRYING_TIME;
         found.wet[i] = target + (found.wet[i] - target) * std::exp(-sources.seconds / static_cast<double>(time));
 
         const std::uint32_t material = shared::particle_material(state.attributes[i]);
-        const double depth = depth_below_surface(field.filling) - static_cast<double>(shared::PARTICLE_SPLAT_DEPTH);
+        const std::uint32_t cover = sources.cover[i];
+        const double covered =
+            cover == shared::NO_COVER || found.gone[cover] ? 0.0 : left_of(sources.hosted[cover], found.left);
+        const double depth = depth_below_surface(field.filling) - static_cast<double>(shared::PARTICLE_SPLAT_DEPTH) -
+                             static_cast<double>(shared::COVERED_DEPTH) * covered;
         Disc& disc = found.particle[i];
         disc.normal = -field.gradient / steepness;
         disc.center = state.position[i] + depth * spacing * disc.normal;
-        disc.radius = static_cast<double>(shared::PARTICLE_SPLAT_RADIUS) * spacing * exposed * living;
+        disc.radius = static_cast<double>(shared::PARTICLE_SPLAT_RADIUS) * spacing * exposed * living *
+                      (1.0 - covered * (1.0 - eroded));
         disc.wet = found.wet[i];
         disc.color = glm::dvec3(splats.color[material]) *
                      (1.0 + disc.wet * (static_cast<double>(splats.wet_albedo[material]) - 1.0));
@@ -206,8 +224,13 @@ SolidSplats solid_splats(const Settings& settings, const shared::SolidSplatParam
             found.particle[i].bend = bend(found.particle, state, i, spacing);
         }
     });
-    for (const shared::HostedSplat& splat : sources.hosted) {
+    for (std::size_t k = 0; k < sources.hosted.size(); ++k) {
+        const shared::HostedSplat& splat = sources.hosted[k];
         found.hosted.push_back(hosted_disc(splat, spacing, state, found));
+        if (found.gone[k]) {
+            found.hosted.back().radius = 0.0;
+        }
+        found.gone[k] = found.gone[k] || left_of(splat, found.left) <= 0.0;
     }
     return found;
 }

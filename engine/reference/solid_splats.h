@@ -25,8 +25,9 @@ struct SplatSources {
     std::span<const double> enthalpy; ///< J/kg
     std::span<const double> damage;   ///< 0 to 1
     std::span<const shared::HostedSplat> hosted;
-    double time = 0.0;    ///< s, of the frame
-    double seconds = 0.0; ///< since the frame before
+    std::span<const std::uint32_t> cover; ///< the hosted splat above each particle, or shared::NO_COVER
+    double time = 0.0;                    ///< s, of the frame
+    double seconds = 0.0;                 ///< since the frame before
 };
 
 /// By the index of particles in their state, which is their id, but for the hosted ones.
@@ -34,13 +35,15 @@ struct SolidSplats {
     std::vector<double> left;   ///< 1 - progress of solids, -1 of fluid, else 0
     std::vector<double> size;   ///< of balls, in radii of a particle
     std::vector<double> wet;    ///< 0 to 1
+    std::vector<double> start;  ///< c of solids in the first frame that has them
+    std::vector<bool> gone;     ///< of hosted ones: a host of theirs was freed
     std::vector<Disc> particle; ///< of each
     std::vector<Disc> hosted;
 };
 
-/// Twin of render/solid_progress.comp, particle_splat.comp, bend_splat.comp and surface_splat.comp. wet: that of the
-/// frame before.
+/// Twin of render/solid_progress.comp, particle_splat.comp, bend_splat.comp and surface_splat.comp. before:
+/// of the frame before; empty vectors where there is none.
 [[nodiscard]] SolidSplats solid_splats(const Settings& settings, const shared::SolidSplatParams& splats,
-                                       const State& state, const SplatSources& sources, std::span<const double> wet);
+                                       const State& state, const SplatSources& sources, const SolidSplats& before);
 
 } // namespace meltpoint::reference

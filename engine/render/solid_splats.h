@@ -24,9 +24,10 @@ struct SolidView {
 /// The splats of solids that erode (shared/solid_splats.h): four passes a frame that place them among discs.
 class SolidSplats {
 public:
-    /// pool: the number of particles. Throws Device when its buffers do not fit.
+    /// cover: of each particle, by id, the hosted splat above it, or shared::NO_COVER. Throws Device when its buffers
+    /// do not fit.
     SolidSplats(const gpu::Context& context, const shared::SolidSplatParams& params,
-                std::span<const shared::HostedSplat> hosted, std::uint32_t pool);
+                std::span<const shared::HostedSplat> hosted, std::span<const std::uint32_t> cover);
 
     /// Discs that it places: one a particle, then the hosted ones.
     [[nodiscard]] std::uint32_t room() const { return pool_ + hosted_count_; }
@@ -37,8 +38,8 @@ public:
 
     /// Of each particle's ball, in the order they lie in: float, in radii of a particle.
     [[nodiscard]] const gpu::Buffer& size() const { return size_; }
-    /// By id, 0 to 1.
-    [[nodiscard]] const gpu::Buffer& wet() const { return wet_; }
+    /// What is kept from frame to frame: vec2 by id, how wet it is, 0 to 1, and c when it was first seen as a solid.
+    [[nodiscard]] const gpu::Buffer& kept() const { return kept_; }
 
 private:
     std::uint32_t pool_;
@@ -50,10 +51,11 @@ private:
     gpu::Kernel surface_splat_;
     gpu::Buffer params_; ///< shared::SolidSplatParams
     gpu::Buffer hosted_; ///< shared::HostedSplat
+    gpu::Buffer cover_;  ///< uint, by id
     gpu::Buffer living_; ///< vec4, in the particles' order
     gpu::Buffer place_;  ///< uint, by id
     gpu::Buffer size_;   ///< float, in the particles' order
-    gpu::Buffer wet_;    ///< float, by id
+    gpu::Buffer kept_;   ///< vec2, by id
 };
 
 } // namespace meltpoint::render

@@ -46,8 +46,8 @@ FramePainter::FramePainter(const gpu::Context& context, const Scene& scene, cons
     if (simulation != nullptr && has_solid_splats(scene)) {
         const std::uint32_t pool = simulation->particles().count;
         const std::uint64_t taken = std::uint64_t{first_of_solids_} + pool;
-        solids_.emplace(context, solid_splat_params(scene),
-                        make_hosted_splats(scene, simulation->download(), limit - std::min(limit, taken)), pool);
+        const SolidSurface surface = make_solid_surface(scene, simulation->download(), limit - std::min(limit, taken));
+        solids_.emplace(context, solid_splat_params(scene), surface.splats, surface.cover);
     }
     const std::uint32_t room = solids_ ? solids_->room() : 0;
     if (first_of_solids_ + room > 0) {

@@ -16,7 +16,7 @@ namespace meltpoint {
 class FramePainter {
 public:
     /// The simulation, at its start: where it is null there are no particles. Throws as make_surface_splats,
-    /// make_hosted_splats and Renderer.
+    /// make_solid_surface and Renderer.
     FramePainter(const gpu::Context& context, const Scene& scene, const shared::SphParams& params,
                  const sim::Simulation* simulation);
 

@@ -17,9 +17,10 @@ namespace meltpoint {
 
 namespace {
 
-constexpr double host_reach = 2.5;  // spacings, of a splat's hosts
-constexpr double least_width = 0.5; // of their triangle: its height in spacings
-constexpr double cover_reach = 1.0; // spacings: a splat with a particle so near above it is covered
+constexpr double host_reach = 2.5;    // spacings, of a splat's hosts
+constexpr double covered_depth = 2.0; // spacings, of the particles that a splat covers
+constexpr double least_width = 0.5;   // of their triangle: its height in spacings
+constexpr double cover_reach = 1.0;   // spacings: a splat with a particle so near above it is covered
 constexpr double cover_height = 0.25;
 constexpr float ice_wet_albedo = 0.93f; // what melts hardly looks darker when it is wet
 constexpr float wet_albedo = 0.6f;
@@ -167,6 +168,18 @@ std::optional<shared::HostedSplat> host(const SolidParticles& solids, double spa
                                    std::isfinite(edge.distance) ? static_cast<float>(edge.distance) : 1e9f};
 }
 
+/// Splat number `splat` covers the particles below it that no nearer one covers. nearest: m^2, by id.
+void cover_particles(const SolidParticles& solids, const glm::dvec3& x, const glm::dvec3& normal, std::uint32_t splat,
+                     std::vector<double>& nearest, std::vector<std::uint32_t>& cover)
+{
+    for (const Candidate& each : solids.around(x)) {
+        if (each.distance2 < nearest[each.id] && glm::dot(x - solids.position(each.id), normal) > 0.0) {
+            nearest[each.id] = each.distance2;
+            cover[each.id] = splat;
+        }
+    }
+}
+
 float wet_albedo_of(const Material& material)
 {
     return material.melts ? ice_wet_albedo : wet_albedo;
@@ -201,8 +214,7 @@ shared::SolidSplatParams solid_splat_params(const Scene& scene)
     return params;
 }
 
-std::vector<shared::HostedSplat> make_hosted_splats(const Scene& scene, const ParticleSet& particles,
-                                                    std::uint64_t limit)
+SolidSurface make_solid_surface(const Scene& scene, const ParticleSet& particles, std::uint64_t limit)
 {
     const auto spacing = static_cast<double>(scene.particles.spacing);
     std::vector<std::variant<TriangleMesh, CloudSurface>> surfaces;
@@ -219,7 +231,8 @@ std::vector<shared::HostedSplat> make_hosted_splats(const Scene& scene, const Pa
                                   std::sqrt(area / (0.9 * static_cast<double>(std::max(limit, std::uint64_t{1})))));
     const SolidParticles solids(particles, spacing);
     const SceneMaterials materials = scene_materials(scene);
-    std::vector<shared::HostedSplat> splats;
+    SolidSurface result{.splats = {}, .cover = std::vector<std::uint32_t>(particles.size(), shared::NO_COVER)};
+    std::vector<double> nearest(particles.size(), std::pow(covered_depth * spacing, 2));
     for (std::size_t s = 0; s < surfaces.size(); ++s) {
         const SurfaceRequest request{
             .method = SurfaceMethod::BlueNoise, .amount = PointSpacing{apart}, .seed = scene.seed + s};
@@ -233,16 +246,18 @@ std::vector<shared::HostedSplat> make_hosted_splats(const Scene& scene, const Pa
             hosted[i] = host(solids, spacing, glm::dvec3(samples.cloud.positions[i]),
                              glm::dvec3(samples.cloud.normals[i]), edges[i]);
         });
-        for (std::optional<shared::HostedSplat>& splat : hosted) {
-            if (splat && splats.size() < limit) {
-                splat->color = scene.solids[s].solid_color;
-                splat->radius = radius;
-                splat->wet_albedo = wet_albedo_of(materials.materials[materials.of_solid[s]]);
-                splats.push_back(*splat);
+        for (std::size_t i = 0; i < hosted.size(); ++i) {
+            if (hosted[i] && result.splats.size() < limit) {
+                hosted[i]->color = scene.solids[s].solid_color;
+                hosted[i]->radius = radius;
+                hosted[i]->wet_albedo = wet_albedo_of(materials.materials[materials.of_solid[s]]);
+                cover_particles(solids, glm::dvec3(samples.cloud.positions[i]), glm::dvec3(samples.cloud.normals[i]),
+                                static_cast<std::uint32_t>(result.splats.size()), nearest, result.cover);
+                result.splats.push_back(*hosted[i]);
             }
         }
     }
-    return splats;
+    return result;
 }
 
 } // namespace meltpoint

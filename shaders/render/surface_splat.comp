@@ -8,10 +8,10 @@
 
 layout(push_constant, scalar) uniform Push { SolidSplatPush push; };
 layout(set = 0, binding = 0, scalar) uniform Params { SphParams params; };
-layout(set = 0, binding = 1, scalar) readonly buffer Hosted { HostedSplat hosted[]; };
+layout(set = 0, binding = 1, scalar) buffer Hosted { HostedSplat hosted[]; };
 layout(set = 0, binding = 2, scalar) readonly buffer Place { uint place[]; };   // by id
 layout(set = 0, binding = 3, scalar) readonly buffer Living { vec4 living[]; }; // w: 1 - p of solids, else at most 0
-layout(set = 0, binding = 4, scalar) readonly buffer Wet { float wet[]; };      // by id
+layout(set = 0, binding = 4, scalar) readonly buffer Kept { vec2 kept[]; }; // by id: how wet, ...
 layout(set = 0, binding = 5, scalar) writeonly buffer DiscPosition { vec4 disc_position[]; };
 layout(set = 0, binding = 6, scalar) writeonly buffer DiscNormal { vec4 disc_normal[]; };
 layout(set = 0, binding = 7, scalar) writeonly buffer DiscColor { vec4 disc_color[]; };
@@ -36,7 +36,10 @@ void main()
     float recession = RECESSION * params.spacing * mean_progress;
     vec3 center = a.xyz + frame * splat.offset - recession * normal;
     float radius = splat.radius * (1.0 - smooth_ramp(DYING_FROM, 1.0, worst_progress));
-    float wetness = dot(splat.weight, vec3(wet[splat.host.x], wet[splat.host.y], wet[splat.host.z]));
+    if (worst_progress >= 1.0) {
+        hosted[i].radius = 0.0;
+    }
+    float wetness = dot(splat.weight, vec3(kept[splat.host.x].x, kept[splat.host.y].x, kept[splat.host.z].x));
 
     uint disc = push.first_hosted + i;
     disc_position[disc] = vec4(center, radius);

@@ -13,7 +13,8 @@
 //
 // Surface splats lie on the solid's own shape, whose edges are sharp, a little outside of the particles' ones. Each belongs to the
 // three solid particles below it: it moves and turns with them, recedes by their mean progress, and is gone with the first of them.
-// At a sharp edge its disc is cut off, where the next face is, which recedes as well.
+// At a sharp edge its disc is cut off, where the next face is, which recedes as well. Below it, particle splats keep out of its
+// way, for the steps of a lattice are not the shape that it fills; there are none before something has gone nearby, and they come up as it shrinks. Whose host was ever freed is gone for good.
 //
 // What is too thin for a surface (a chain, a lone particle) is drawn as balls. What melts or is washed away grows into its ball
 // while it takes on the color of its fluid; what a front frees does before, inside of the solid.
@@ -37,6 +38,10 @@ SHARED_CONSTANT float THIN_FROM = 0.75f;
 
 SHARED_CONSTANT float PARTICLE_SPLAT_RADIUS = 1.0f;  // spacings: discs of a cubic lattice overlap from 0.71 on
 SHARED_CONSTANT float PARTICLE_SPLAT_DEPTH = 0.25f;   // spacings below the surface, so that surface splats cover them
+SHARED_CONSTANT float COVERED_DEPTH = 0.6f;          // spacings farther below, where a surface splat covers them whole
+SHARED_CONSTANT float ERODED_FROM = 0.02f;           // lost part of c from which up to which they come
+SHARED_CONSTANT float ERODED_FULLY = 0.1f;
+SHARED_CONSTANT uint NO_COVER = 0xffffffffu;         // of a particle without one
 SHARED_CONSTANT float SURFACE_SPLAT_SPACING = 0.5f;  // of surface splats, in spacings
 SHARED_CONSTANT float SURFACE_SPLAT_RADIUS = 1.1f;   // in spacings of their own
 SHARED_CONSTANT float RECESSION = 1.0f;              // spacings, of a surface splat whose hosts are about to go

@@ -29,6 +29,7 @@ struct Solids {
     std::vector<double> enthalpy;
     std::vector<double> damage;
     std::vector<shared::HostedSplat> hosted;
+    std::vector<std::uint32_t> cover;
     double time = 0.0;
 };
 
@@ -72,7 +73,7 @@ protected:
         const gpu::Buffer damage = two_floats(solids.damage);
         const gpu::Buffer freed_at = gpu::make_buffer<float>(context(), count, "freed at");
         gpu::upload<float>(context(), freed_at, solids.freed_at);
-        render::SolidSplats splats(context(), splat_params(), solids.hosted, count);
+        render::SolidSplats splats(context(), splat_params(), solids.hosted, solids.cover);
         constexpr std::uint32_t first = 3;
         const std::vector<glm::vec4> before(first, glm::vec4(1.0f));
         const render::DiscBuffers discs(context(), before, before, before, splats.room());
@@ -94,7 +95,7 @@ protected:
         }
         const std::vector<std::uint32_t> id = download_unordered(context(), device.particles).id;
         const auto size = gpu::download<float>(context(), splats.size(), count);
-        const auto wet = gpu::download<float>(context(), splats.wet(), count);
+        const auto kept = gpu::download<glm::vec2>(context(), splats.kept(), count);
         const std::uint32_t all = first + splats.room();
         const auto position = gpu::download<glm::vec4>(context(), discs.position(), all);
         const auto normal = gpu::download<glm::vec4>(context(), discs.normal(), all);
@@ -112,11 +113,14 @@ protected:
         };
         reference::SolidSplats found{.left = {},
                                      .size = std::vector<double>(count),
-                                     .wet = {wet.begin(), wet.end()},
+                                     .wet = std::vector<double>(count),
+                                     .start = {},
+                                     .gone = {},
                                      .particle = {},
                                      .hosted = {}};
         found.particle.resize(count);
         for (std::uint32_t place = 0; place < count; ++place) {
+            found.wet[place] = static_cast<double>(kept[place].x);
             found.size[id[place]] = static_cast<double>(size[place]);
             found.particle[id[place]] = disc(first + place);
             EXPECT_TRUE(position[first + place].w == 0.0f || normal[first + place].w == shared::DISC_BENT);
@@ -131,7 +135,6 @@ protected:
     static reference::SolidSplats by_twin(const Solids& solids, int frames = 1)
     {
         const reference::State state = reference::from_particle_set(solids.particles);
-        std::vector<double> wet(state.size(), 0.0);
         reference::SolidSplats found;
         for (int frame = 1; frame <= frames; ++frame) {
             const double time = solids.time + 0.1 * (frame - frames);
@@ -140,10 +143,10 @@ protected:
                                              .enthalpy = solids.enthalpy,
                                              .damage = solids.damage,
                                              .hosted = solids.hosted,
+                                             .cover = solids.cover,
                                              .time = time,
                                              .seconds = frame == 1 ? time : 0.1},
-                                            wet);
-            wet = found.wet;
+                                            found);
         }
         return found;
     }
@@ -174,7 +177,8 @@ protected:
         }
         const std::size_t solid_count = solids.particles.size();
         for (int i = 0; i < 120; ++i) {
-            add_particle(solids.particles, glm::vec3(0.25f, 0.59f, 0.25f) + glm::vec3(0.4f, 0.15f, 0.3f) * random_vector(random));
+            add_particle(solids.particles,
+                         glm::vec3(0.25f, 0.59f, 0.25f) + glm::vec3(0.4f, 0.15f, 0.3f) * random_vector(random));
         }
         add_particle(solids.particles, glm::vec3(0.1f)); // a solid particle all alone
         solids.particles.attributes.back() = shared::pack_attributes(shared::STATE_SOLID, ice);
@@ -183,8 +187,10 @@ protected:
         solids.freed_at.assign(count, never);
         solids.enthalpy.assign(count, -1000.0);
         solids.damage.assign(count, 0.0);
+        solids.cover.assign(count, shared::NO_COVER);
         solids.time = 3.0;
         for (std::size_t i = 0; i < solid_count; ++i) {
+            solids.cover[i] = i % 3 == 0 ? static_cast<std::uint32_t>(i % 60) : shared::NO_COVER;
             switch (i % 4) {
             case 0:
                 solids.enthalpy[i] = latent_heat * random.uniform();
@@ -233,6 +239,7 @@ protected:
         std::ranges::fill(solids.particles.attributes, shared::pack_attributes(shared::STATE_SOLID, ice));
         solids.freed_at.assign(count, never);
         solids.damage.assign(count, 0.0);
+        solids.cover.assign(count, shared::NO_COVER);
         solids.enthalpy.assign(count, 0.0);
         for (std::size_t i = 0; i < count; ++i) {
             const auto layer = static_cast<std::size_t>(5 - std::lround((solids.particles.position[i].y - 0.25f) / d));
