@@ -17,11 +17,12 @@ namespace meltpoint {
 
 namespace {
 
-constexpr double host_reach = 2.5;    // spacings, of a splat's hosts
-constexpr double covered_depth = 2.0; // spacings, of the particles that a splat covers
-constexpr double least_width = 0.5;   // of their triangle: its height in spacings
-constexpr double cover_reach = 1.0;   // spacings: a splat with a particle so near above it is covered
-constexpr double cover_height = 0.25;
+constexpr double host_reach = 2.5;     // spacings, of a splat's hosts
+constexpr double covered_depth = 2.0;  // spacings: a splat covers the particles less deep below it,
+constexpr double covered_width = 0.5; // and as near to the line along its normal
+constexpr double least_width = 0.5;    // of their triangle: its height in spacings
+constexpr double cover_width = 0.72; // spacings: a splat is covered by a particle so near to the line along its normal,
+constexpr double cover_height = 0.25;   // so far above it
 constexpr float ice_wet_albedo = 0.93f; // what melts hardly looks darker when it is wet
 constexpr float wet_albedo = 0.6f;
 
@@ -107,8 +108,9 @@ bool is_covered(const SolidParticles& solids, double spacing, const std::vector<
                 const glm::dvec3& normal)
 {
     return std::ranges::any_of(near, [&](const Candidate& each) {
-        return each.distance2 < std::pow(cover_reach * spacing, 2) &&
-               glm::dot(solids.position(each.id) - x, normal) > cover_height * spacing;
+        const double height = glm::dot(solids.position(each.id) - x, normal) / spacing;
+        const double aside2 = each.distance2 / (spacing * spacing) - height * height;
+        return height > cover_height && height < 1.0 - cover_height && aside2 < cover_width * cover_width;
     });
 }
 
@@ -169,11 +171,13 @@ std::optional<shared::HostedSplat> host(const SolidParticles& solids, double spa
 }
 
 /// Splat number `splat` covers the particles below it that no nearer one covers. nearest: m^2, by id.
-void cover_particles(const SolidParticles& solids, const glm::dvec3& x, const glm::dvec3& normal, std::uint32_t splat,
-                     std::vector<double>& nearest, std::vector<std::uint32_t>& cover)
+void cover_particles(const SolidParticles& solids, double spacing, const glm::dvec3& x, const glm::dvec3& normal,
+                     std::uint32_t splat, std::vector<double>& nearest, std::vector<std::uint32_t>& cover)
 {
     for (const Candidate& each : solids.around(x)) {
-        if (each.distance2 < nearest[each.id] && glm::dot(x - solids.position(each.id), normal) > 0.0) {
+        const double depth = glm::dot(x - solids.position(each.id), normal);
+        const double aside2 = each.distance2 - depth * depth;
+        if (each.distance2 < nearest[each.id] && depth > 0.0 && aside2 < std::pow(covered_width * spacing, 2)) {
             nearest[each.id] = each.distance2;
             cover[each.id] = splat;
         }
@@ -251,8 +255,9 @@ SolidSurface make_solid_surface(const Scene& scene, const ParticleSet& particles
                 hosted[i]->color = scene.solids[s].solid_color;
                 hosted[i]->radius = radius;
                 hosted[i]->wet_albedo = wet_albedo_of(materials.materials[materials.of_solid[s]]);
-                cover_particles(solids, glm::dvec3(samples.cloud.positions[i]), glm::dvec3(samples.cloud.normals[i]),
-                                static_cast<std::uint32_t>(result.splats.size()), nearest, result.cover);
+                cover_particles(solids, spacing, glm::dvec3(samples.cloud.positions[i]),
+                                glm::dvec3(samples.cloud.normals[i]), static_cast<std::uint32_t>(result.splats.size()),
+                                nearest, result.cover);
                 result.splats.push_back(*hosted[i]);
             }
         }

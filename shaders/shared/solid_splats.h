@@ -38,7 +38,7 @@ SHARED_CONSTANT float THIN_FROM = 0.75f;
 
 SHARED_CONSTANT float PARTICLE_SPLAT_RADIUS = 1.0f;  // spacings: discs of a cubic lattice overlap from 0.71 on
 SHARED_CONSTANT float PARTICLE_SPLAT_DEPTH = 0.25f;   // spacings below the surface, so that surface splats cover them
-SHARED_CONSTANT float COVERED_DEPTH = 0.6f;          // spacings farther below, where a surface splat covers them whole
+SHARED_CONSTANT float COVERED_DEPTH = 0.35f;         // spacings farther below, where a surface splat covers them whole
 SHARED_CONSTANT float ERODED_FROM = 0.02f;           // lost part of c from which up to which they come
 SHARED_CONSTANT float ERODED_FULLY = 0.1f;
 SHARED_CONSTANT uint NO_COVER = 0xffffffffu;         // of a particle without one
