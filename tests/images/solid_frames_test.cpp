@@ -1,4 +1,5 @@
-// Pictures of solids that erode, frame by frame while the camera stands still: no hole shows what lies inside, nothing pops.
+// Pictures of solids that erode, frame by frame while the camera stands still: no hole shows what lies inside, nothing
+// pops.
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
@@ -63,11 +64,11 @@ public:
         for (std::size_t i = 0; i < particles.size(); ++i) {
             const std::uint32_t material = shared::particle_material(particles.attributes[i]);
             const double latent_heat = static_cast<double>(params.latent_heat[material]);
-            const double front = static_cast<double>(
-                params.front_time[material] > 0.0f
-                    ? shared::front_progress(freed_at[i], static_cast<float>(simulation().time()),
-                                             params.front_time[material])
-                    : 0.0f);
+            const double front =
+                static_cast<double>(params.front_time[material] > 0.0f
+                                        ? shared::front_progress(freed_at[i], static_cast<float>(simulation().time()),
+                                                                 params.front_time[material])
+                                        : 0.0f);
             const double melted = latent_heat > 0.0 ? enthalpy[i] / latent_heat : 0.0;
             const double progress = std::max({front, melted, damage.empty() ? 0.0 : damage[i]});
             if (shared::particle_state(particles.attributes[i]) == shared::STATE_SOLID && progress < 0.5) {
@@ -84,9 +85,8 @@ public:
         const float reach = 1.2f * scene_.particles.spacing;
         std::vector<glm::vec3> inner;
         for (const glm::vec3& x : whole) {
-            const auto near = std::ranges::count_if(whole, [&](const glm::vec3& other) {
-                return glm::distance(x, other) < reach;
-            });
+            const auto near =
+                std::ranges::count_if(whole, [&](const glm::vec3& other) { return glm::distance(x, other) < reach; });
             if (near >= 7) {
                 inner.push_back(x);
             }
@@ -187,14 +187,15 @@ TEST_P(SolidFramesTest, NoHoleShowsTheInside)
     }
     RecordProperty("holes", std::to_string(worst));
     EXPECT_LE(worst, GetParam().holes);
-    if (std::getenv("SHOW")) printf("%s holes %g\n", GetParam().scene, worst);
+    if (std::getenv("SHOW"))
+        printf("%s holes %g\n", GetParam().scene, worst);
 }
 
 TEST_P(SolidFramesTest, NothingPops)
 {
     Show show(context(), GetParam());
-    show.painter().settings().bounds = {};           // no shadows, which fluid casts
-    show.painter().settings().splat_radius = 1e-6f;  // nor its balls
+    show.painter().settings().bounds = {};          // no shadows, which fluid casts
+    show.painter().settings().splat_radius = 1e-6f; // nor its balls
     show.simulation().advance_by(GetParam().start);
     Image before = show.paint();
     Change worst;
@@ -208,19 +209,19 @@ TEST_P(SolidFramesTest, NothingPops)
     }
     EXPECT_LE(worst.mean, GetParam().mean);
     EXPECT_LE(worst.extreme, GetParam().extreme);
-    if (std::getenv("SHOW")) printf("%s change %g %g\n", GetParam().scene, worst.mean, worst.extreme);
+    if (std::getenv("SHOW"))
+        printf("%s change %g %g\n", GetParam().scene, worst.mean, worst.extreme);
 }
 
-INSTANTIATE_TEST_SUITE_P(
-    Scenes, SolidFramesTest,
-    // Measured on a software device: see the comment above.
-    testing::Values(Case{"melt_cube", 0.025f, 0.5, 0.005, 500, 0.12, 28},
-                    Case{"melt_teapot", 0.025f, 0.3, 0.005, 18'000, 0.23, 40},
-                    Case{"jet_on_block", 0.04f, 0.6, 0.005, 4000, 0.17, 70},
-                    Case{"river_bed", 0.05f, 0.8, 0.005, 5500, 0.36, 85},
-                    Case{"vanish", 0.04f, 0.6, 0.005, 4000, 0.08, 33},
-                    Case{"dissolve", 0.05f, 0.6, 0.005, 8500, 0.06, 22}),
-    [](const auto& its) { return std::string(its.param.scene); });
+INSTANTIATE_TEST_SUITE_P(Scenes, SolidFramesTest,
+                         // Measured on a software device: see the comment above.
+                         testing::Values(Case{"melt_cube", 0.025f, 0.5, 0.005, 500, 0.12, 28},
+                                         Case{"melt_teapot", 0.025f, 0.3, 0.005, 18'000, 0.23, 40},
+                                         Case{"jet_on_block", 0.04f, 0.6, 0.005, 4000, 0.17, 70},
+                                         Case{"river_bed", 0.05f, 0.8, 0.005, 5500, 0.36, 85},
+                                         Case{"vanish", 0.04f, 0.6, 0.005, 4000, 0.08, 33},
+                                         Case{"dissolve", 0.05f, 0.6, 0.005, 8500, 0.06, 22}),
+                         [](const auto& its) { return std::string(its.param.scene); });
 
 } // namespace
 } // namespace meltpoint
