@@ -55,8 +55,9 @@ protected:
         return params;
     }
 
-    /// What the device makes of it, in the form of the twin; `frames` at the same time, a tenth of a second apart.
-    static reference::SolidSplats on_device(const Solids& solids, int frames = 1)
+    /// What the device makes of it, in the form of the twin, after `frames` frames a tenth of a second apart. In the
+    /// first of them all have that damage, if it is positive.
+    static reference::SolidSplats on_device(const Solids& solids, int frames = 1, double first_damage = -1.0)
     {
         conformance::Device device(context(), solids.particles, settings());
         const auto count = static_cast<std::uint32_t>(solids.particles.size());
@@ -71,6 +72,7 @@ protected:
         };
         const gpu::Buffer enthalpy = two_floats(solids.enthalpy);
         const gpu::Buffer damage = two_floats(solids.damage);
+        const gpu::Buffer damage_before = two_floats(std::vector<double>(count, first_damage));
         const gpu::Buffer freed_at = gpu::make_buffer<float>(context(), count, "freed at");
         gpu::upload<float>(context(), freed_at, solids.freed_at);
         render::SolidSplats splats(context(), splat_params(), solids.hosted, solids.cover);
@@ -87,7 +89,7 @@ protected:
                                .cell_start = device.grid.cell_start,
                                .particles = device.particles,
                                .enthalpy = &enthalpy,
-                               .damage = &damage,
+                               .damage = frame == 1 && first_damage > 0.0 ? &damage_before : &damage,
                                .freed_at = &freed_at,
                                .time = solids.time + 0.1 * (frame - frames)},
                               discs, first);
@@ -275,6 +277,18 @@ TEST_F(SolidSplatsTest, TheDeviceConformsToTheTwin)
             EXPECT_NEAR(device.hosted[i].edge, twin.hosted[i].edge, 1e-5);
         }
     }
+}
+
+TEST_F(SolidSplatsTest, WhoseHostWasFreedIsGoneForGood)
+{
+    Solids solids = layered_block({});
+    solids.hosted.push_back({.host = {0, 1, 9}, .weight = glm::vec3(1.0f / 3.0f), .normal = {0, 0, 1}, .radius = d});
+    solids.cover[in_middle(0)] = 0;
+    EXPECT_EQ(on_device(solids, 2).hosted[0].radius, static_cast<double>(d));
+    EXPECT_EQ(on_device(solids, 2, 0.9).hosted[0].radius, static_cast<double>(d));
+    EXPECT_EQ(on_device(solids, 2, 1.0).hosted[0].radius, 0.0);
+    EXPECT_EQ(on_device(solids, 2).particle[in_middle(0)].radius, 0.0); // covered
+    EXPECT_GT(on_device(solids, 2, 1.0).particle[in_middle(0)].radius, 0.0);
 }
 
 TEST_F(SolidSplatsTest, InteriorParticlesHaveNoneAndLoneOnesAreBalls)

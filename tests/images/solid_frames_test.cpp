@@ -187,8 +187,6 @@ TEST_P(SolidFramesTest, NoHoleShowsTheInside)
     }
     RecordProperty("holes", std::to_string(worst));
     EXPECT_LE(worst, GetParam().holes);
-    if (std::getenv("SHOW"))
-        printf("%s holes %g\n", GetParam().scene, worst);
 }
 
 TEST_P(SolidFramesTest, NothingPops)
@@ -209,13 +207,19 @@ TEST_P(SolidFramesTest, NothingPops)
     }
     EXPECT_LE(worst.mean, GetParam().mean);
     EXPECT_LE(worst.extreme, GetParam().extreme);
-    if (std::getenv("SHOW"))
-        printf("%s change %g %g\n", GetParam().scene, worst.mean, worst.extreme);
 }
 
+// Bounds are a quarter to a half above what a software device measures:
+//   holes    0, 13656, 2909, 4151, 3075, 6548 in a million: the teapot's are at its thin lid and where its spout
+//   reaches into
+//            its body, the others' where bodies touch. With particle splats that wait until surface splats are gone
+//            there are 23817 on the cube.
+//   changes  0.087/21, 0.175/31, 0.124/56, 0.281/67, 0.058/25, 0.041/16: jet and river wear a particle away within tens
+//   of
+//            milliseconds. With solids that are whole until they are freed it is 0.103/29, .../52, .../92, .../7,
+//            .../99, .../127 (the river frees none meanwhile), and 69 on the cube where surface splats go at once.
 INSTANTIATE_TEST_SUITE_P(Scenes, SolidFramesTest,
-                         // Measured on a software device: see the comment above.
-                         testing::Values(Case{"melt_cube", 0.025f, 0.5, 0.005, 500, 0.12, 28},
+                         testing::Values(Case{"melt_cube", 0.025f, 0.5, 0.005, 200, 0.12, 28},
                                          Case{"melt_teapot", 0.025f, 0.3, 0.005, 18'000, 0.23, 40},
                                          Case{"jet_on_block", 0.04f, 0.6, 0.005, 4000, 0.17, 70},
                                          Case{"river_bed", 0.05f, 0.8, 0.005, 5500, 0.36, 85},
