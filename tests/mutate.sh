@@ -1451,6 +1451,31 @@ mutation "solid splats: surface splats come back with their hosts" \
     'worst_progress >= 1.0' \
     'worst_progress > 1.0' \
     conformance_tests 'SolidSplatsTest.WhoseHostWasFreedIsGoneForGood'
+mutation "discs: an edge cuts nothing off" \
+    shaders/render/disc.frag \
+    ' && dot(q, in_edge.xyz) <= in_edge.w' \
+    '' \
+    image_tests 'DiscTest.AnEdgedOneEndsAtItsEdge'
+mutation "discs: bent ones go on beyond their surface" \
+    shaders/render/disc.frag \
+    ' && off <= BENT_OFF * in_disc.w' \
+    '' \
+    image_tests 'DiscTest.ABentOne*'
+mutation "discs: bent ones are seen from inside" \
+    shaders/render/disc.vert \
+    'radius > 0.0 && !turned_away' \
+    'radius > 0.0' \
+    image_tests 'DiscTest.BentAndEdgedOnesAreSeenFromOutsideAlone'
+mutation "discs: normals turn the other way" \
+    shaders/include/splat.glsl \
+    'normalize(normal + dot(bend.xy, at) * u' \
+    'normalize(normal - dot(bend.xy, at) * u' \
+    image_tests 'DiscTest.ABentOne*'
+mutation "balls: they all have one size" \
+    shaders/render/sphere.vert \
+    'push.radius * size[particle]' \
+    'push.radius' \
+    image_tests 'DiscTest.BallsMayHaveSizesOfTheirOwn'
 
 # --- the machinery ------------------------------------------------------------------------------------------------------
 
