@@ -1463,8 +1463,8 @@ mutation "discs: bent ones go on beyond their surface" \
     image_tests 'DiscTest.ABentOne*'
 mutation "discs: bent ones are seen from inside" \
     shaders/render/disc.vert \
-    'radius > 0.0 && !turned_away' \
-    'radius > 0.0' \
+    'radius > 0.0 && !turned_away ? 1u' \
+    'radius > 0.0 ? 1u' \
     image_tests 'DiscTest.BentAndEdgedOnesAreSeenFromOutsideAlone'
 mutation "discs: normals turn the other way" \
     shaders/include/splat.glsl \

@@ -160,6 +160,7 @@ vec4 disc_bound(SplatCamera camera, vec3 center, vec3 normal, float radius)
 // --- the quad that covers a bound ----------------------------------------------------------------------------------------
 
 const uint VERTICES_PER_QUAD = 6u;
+const vec4 NO_QUAD = vec4(2.0, 2.0, 0.0, 1.0); // outside of the screen
 const float BOUND_MARGIN = 0.25; // samples: more than rasterization rounds positions by
 
 // Clip-space position of one of the quad's six vertices, at the depth of the splat's nearest point: no fragment is nearer,
@@ -171,7 +172,7 @@ vec4 quad_vertex(SplatCamera camera, vec4 bound, float nearest, uint vertex)
     vec2 low = max(min(a, b) - BOUND_MARGIN * camera.pixel, vec2(-1.0));
     vec2 high = min(max(a, b) + BOUND_MARGIN * camera.pixel, vec2(1.0));
     if (!(bound.x <= bound.z && bound.y <= bound.w && low.x < high.x && low.y < high.y)) {
-        return vec4(2.0, 2.0, 0.0, 1.0);
+        return NO_QUAD;
     }
     // 0 1 2, 2 1 3
     uint corner = vertex < 3u ? vertex : (vertex == 3u ? 2u : (vertex == 4u ? 1u : 3u));

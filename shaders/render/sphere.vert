@@ -22,11 +22,13 @@ void main()
     float radius = push.sized != 0u ? push.radius * size[particle]
                                     : particle_radius(push.radius, attributes[particle], density[particle]);
 
-    vec4 bound = NOWHERE.xxyy;
-    if (particle_state(attributes[particle]) != STATE_DEAD && radius > 0.0) {
-        bound = sphere_bound(push.camera, center, radius);
+    gl_Position = NO_QUAD;
+    // One round, or none, as in disc.vert.
+    uint rounds = particle_state(attributes[particle]) != STATE_DEAD && radius > 0.0 ? 1u : 0u;
+    for (uint k = 0u; k < rounds; ++k) {
+        vec4 bound = sphere_bound(push.camera, center, radius);
+        gl_Position = quad_vertex(push.camera, bound, -center.z - radius, uint(gl_VertexIndex) % VERTICES_PER_QUAD);
     }
-    gl_Position = quad_vertex(push.camera, bound, -center.z - radius, uint(gl_VertexIndex) % VERTICES_PER_QUAD);
     out_center = center;
     out_particle = particle;
     out_radius = radius;
