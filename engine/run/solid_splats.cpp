@@ -17,10 +17,10 @@ namespace meltpoint {
 
 namespace {
 
-constexpr double host_reach = 2.5;     // spacings, of a splat's hosts
-constexpr double covered_depth = 2.0;  // spacings: a splat covers the particles less deep below it,
+constexpr double host_reach = 2.5;    // spacings, of a splat's hosts
+constexpr double covered_depth = 2.0; // spacings: a splat covers the particles less deep below it,
 constexpr double covered_width = 0.5; // and as near to the line along its normal
-constexpr double least_width = 0.5;    // of their triangle: its height in spacings
+constexpr double least_width = 0.5;   // of their triangle: its height in spacings
 constexpr double cover_width = 0.72; // spacings: a splat is covered by a particle so near to the line along its normal,
 constexpr double cover_height = 0.25;   // so far above it
 constexpr float ice_wet_albedo = 0.93f; // what melts hardly looks darker when it is wet
