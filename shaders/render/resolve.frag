@@ -231,18 +231,16 @@ void main()
     int samples = int(params.samples);
     ivec2 first = ivec2(gl_FragCoord.xy) * samples;
     vec3 sum = vec3(0.0);
-    uint surface = texelFetch(visibility, first, 0).r;
-    // Within a pixel a surface hardly changes: samples in a row that show one are shaded once. Software devices shade in each
-    // round of a loop whether or not a branch asks for it, so that the loop has to be one over such rows.
-    for (int i = 0; i < samples * samples;) {
-        uint shaded = surface;
-        vec3 color = sample_color(shaded, vec2(first + ivec2(i % samples, i / samples)) + 0.5);
-        for (bool same = true; same;) {
-            sum += color;
-            ++i;
-            surface = i < samples * samples ? texelFetch(visibility, first + ivec2(i % samples, i / samples), 0).r : shaded;
-            same = i < samples * samples && surface == shaded;
+    vec3 color;
+    uint previous;
+    for (int i = 0; i < samples * samples; ++i) {
+        ivec2 at = first + ivec2(i % samples, i / samples);
+        uint surface = texelFetch(visibility, at, 0).r;
+        if (i == 0 || surface != previous) { // within a pixel a surface hardly changes: shade it once
+            color = sample_color(surface, vec2(at) + 0.5);
+            previous = surface;
         }
+        sum += color;
     }
     out_color = vec4(sum / float(samples * samples), 1.0);
 }
