@@ -1585,6 +1585,79 @@ mutation "hydraulic: strata are lumps" \
     'if (false) {' \
     unit_tests 'Strength.OfLayersDependsOnTheWayAcrossThemAlone'
 
+# --- the mutations: splats of solids --------------------------------------------------------------------------------------
+
+mutation "solid splats: damage is no progress" \
+    shaders/render/solid_progress.comp \
+    'progress = max(progress, clamp(damage[slot].x, 0.0, 1.0));' \
+    '' \
+    conformance_tests 'SolidSplatsTest.TheDeviceConformsToTheTwin'
+mutation "solid splats: solids are whole until they are freed" \
+    shaders/render/solid_progress.comp \
+    'left = 1.0 - progress;' \
+    'left = 1.0;' \
+    image_tests '*SolidFramesTest.NothingPops/melt_cube'
+mutation "solid splats: the field's slope is half of what it is" \
+    shaders/include/solid_field.glsl \
+    'field.gradient *= 20.0 * scale' \
+    'field.gradient *= 10.0 * scale' \
+    conformance_tests 'SolidSplatsTest.TheDeviceConformsToTheTwin'
+mutation "solid splats: particle splats lie above the surface" \
+    shaders/render/particle_splat.comp \
+    '(depth - sunk)' \
+    '(depth + sunk)' \
+    conformance_tests 'SolidSplatsTest.TheSurfaceRecedesSteadilyFromLayerToLayer'
+mutation "solid splats: particle splats wait until surface splats are gone" \
+    shaders/render/particle_splat.comp \
+    '(1.0 - covered * (1.0 - eroded))' \
+    '(1.0 - covered)' \
+    image_tests '*SolidFramesTest.NoHoleShowsTheInside/melt_cube'
+mutation "solid splats: they bend the wrong way across" \
+    shaders/render/bend_splat.comp \
+    'float uv = (turn_u.y' \
+    'float uv = -(turn_u.y' \
+    conformance_tests 'SolidSplatsTest.TheDeviceConformsToTheTwin'
+mutation "solid splats: surface splats grow out of their solid" \
+    shaders/render/surface_splat.comp \
+    '- recession * normal;' \
+    '+ recession * normal;' \
+    conformance_tests 'SolidSplatsTest.TheDeviceConformsToTheTwin'
+mutation "solid splats: surface splats go at once" \
+    shaders/render/surface_splat.comp \
+    '(1.0 - smooth_ramp(DYING_FROM, 1.0, worst_progress))' \
+    '(worst_progress < 0.75 ? 1.0 : 0.0)' \
+    image_tests '*SolidFramesTest.NothingPops/melt_cube'
+mutation "solid splats: surface splats come back with their hosts" \
+    shaders/render/surface_splat.comp \
+    'worst_progress >= 1.0' \
+    'worst_progress > 1.0' \
+    conformance_tests 'SolidSplatsTest.WhoseHostWasFreedIsGoneForGood'
+mutation "discs: an edge cuts nothing off" \
+    shaders/render/disc.frag \
+    ' && dot(q, in_edge.xyz) <= in_edge.w' \
+    '' \
+    image_tests 'DiscTest.AnEdgedOneEndsAtItsEdge'
+mutation "discs: bent ones go on beyond their surface" \
+    shaders/render/disc.frag \
+    ' && off <= BENT_OFF * in_disc.w' \
+    '' \
+    image_tests 'DiscTest.ABentOne*'
+mutation "discs: bent ones are seen from inside" \
+    shaders/render/disc.vert \
+    'radius > 0.0 && !turned_away ? 1u' \
+    'radius > 0.0 ? 1u' \
+    image_tests 'DiscTest.BentAndEdgedOnesAreSeenFromOutsideAlone'
+mutation "discs: normals turn the other way" \
+    shaders/include/splat.glsl \
+    'normalize(normal + dot(bend.xy, at) * u' \
+    'normalize(normal - dot(bend.xy, at) * u' \
+    image_tests 'DiscTest.ABentOne*'
+mutation "balls: they all have one size" \
+    shaders/render/sphere.vert \
+    'push.radius * size[particle]' \
+    'push.radius' \
+    image_tests 'DiscTest.BallsMayHaveSizesOfTheirOwn'
+
 # --- the machinery ------------------------------------------------------------------------------------------------------
 
 source_dir=build/mutations/source

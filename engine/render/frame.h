@@ -29,13 +29,20 @@ struct ParticleView {
     const gpu::Buffer* freed_at = nullptr;
     const gpu::Buffer* id = nullptr;
     float time = 0.0f; ///< s, of the frame
+
+    /// Of each sphere, in radii of FrameSettings: float, in the particles' order. Null: all have one size, but for
+    /// dust.
+    const gpu::Buffer* size = nullptr;
 };
 
-/// Surface splats in device buffers, read only: flat discs, seen from both sides.
+/// Surface splats in device buffers, read only: flat discs.
 struct DiscView {
     const gpu::Buffer& position; ///< vec4: xyz in m, w the radius in m
-    const gpu::Buffer& normal;   ///< vec4: xyz, of any length but 0
+    const gpu::Buffer& normal;   ///< vec4: xyz, of any length but 0; w is shared::DISC_*
     const gpu::Buffer& color;    ///< vec4: linear RGB
+    /// vec4: of a bent disc, xyz says how its normal turns along it (include/splat.glsl), 1/m; an edged one is where
+    /// the way from its center times xyz is at most 1; w is how wet it is, 0 to 1.
+    const gpu::Buffer& bend;
     std::uint32_t count = 0;
 };
 

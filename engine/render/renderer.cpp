@@ -95,6 +95,7 @@ void Renderer::draw(gpu::Commands& commands, const Frame& frame)
     shared::RenderParams params = frame_params(frame.settings, width_, height_, samples_, shadow_size);
     const bool knows_when_freed = frame.particles && frame.particles->freed_at != nullptr;
     params.time = frame.particles ? frame.particles->time : 0.0f;
+    params.sized = frame.particles && frame.particles->size != nullptr ? 1 : 0;
     params.blend_time = knows_when_freed ? frame.settings.blend_time : 0.0f;
     const gpu::Scope scope(commands, "render");
     write_params(commands, params);
@@ -102,19 +103,20 @@ void Renderer::draw(gpu::Commands& commands, const Frame& frame)
 
     const auto splats = [&](const gpu::GraphicsPipeline& sphere, const gpu::GraphicsPipeline& disc,
                             const shared::SplatCamera& camera) {
-        const shared::SplatPush push{camera, params.splat_radius};
+        const shared::SplatPush push{camera, params.splat_radius, params.sized};
         std::vector<gpu::Draw> draws;
         if (spheres > 0) {
             draws.push_back({&sphere,
                              spheres * vertices_per_quad,
                              gpu::push_bytes(push),
-                             {frame.particles->position, frame.particles->attributes, frame.particles->density}});
+                             {frame.particles->position, frame.particles->attributes, frame.particles->density,
+                              frame.particles->size != nullptr ? *frame.particles->size : params_}});
         }
         if (discs > 0) {
             draws.push_back({&disc,
                              discs * vertices_per_quad,
                              gpu::push_bytes(push),
-                             {frame.discs->position, frame.discs->normal}});
+                             {frame.discs->position, frame.discs->normal, frame.discs->bend, frame.discs->color}});
         }
         return draws;
     };
@@ -145,7 +147,8 @@ void Renderer::draw(gpu::Commands& commands, const Frame& frame)
              frame.particles ? frame.particles->pressure : none, frame.particles ? frame.particles->attributes : none,
              frame.discs ? frame.discs->position : none, frame.discs ? frame.discs->normal : none,
              frame.discs ? frame.discs->color : none, knows_when_freed ? *frame.particles->id : none,
-             knows_when_freed ? *frame.particles->freed_at : none}};
+             knows_when_freed ? *frame.particles->freed_at : none, params.sized != 0 ? *frame.particles->size : none,
+             frame.discs ? frame.discs->bend : none}};
         const gpu::Targets targets{.colors = {{&picture_}}, .depth = std::nullopt};
         gpu::record_draw_pass(commands, targets, std::span(&draw, 1));
     }

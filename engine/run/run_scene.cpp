@@ -21,15 +21,11 @@
 #include "io/atomic_file.h"
 #include "io/image_write.h"
 #include "io/particle_export.h"
-#include "render/disc_buffers.h"
-#include "render/legend.h"
-#include "render/renderer.h"
 #include "run/collider_forces.h"
+#include "run/frame_painter.h"
 #include "run/frame_statistics.h"
-#include "run/frame_view.h"
 #include "run/output_files.h"
 #include "run/start_scene.h"
-#include "run/surface_splats.h"
 #include "run/video.h"
 #include "sim/simulation.h"
 
@@ -177,63 +173,6 @@ public:
 private:
     std::filesystem::path path_;
     std::string text_;
-};
-
-std::optional<render::DiscBuffers> make_discs(const gpu::Context& context, const Scene& scene)
-{
-    if (scene.surfaces.empty()) {
-        return std::nullopt;
-    }
-    const SurfaceSplats splats = make_surface_splats(scene, render::DiscBuffers::max_discs(context));
-    return render::DiscBuffers(context, splats.position_radius, splats.normal, splats.color);
-}
-
-/// Draws the simulation's particles where they lie, and the scene's surfaces.
-class FramePainter {
-public:
-    FramePainter(const gpu::Context& context, const Scene& scene, const shared::SphParams& params)
-        : renderer_(context, scene.render.width, scene.render.height), commands_(context),
-          discs_(make_discs(context, scene)), settings_(frame_settings(scene, params)),
-          legend_(frame_legend(scene, settings_))
-    {
-    }
-
-    /// The simulation may be null: there are no particles.
-    Image paint(const sim::Simulation* simulation)
-    {
-        commands_.begin();
-        renderer_.draw(commands_, {.settings = settings_,
-                                   .particles = simulation != nullptr ? std::optional(view(*simulation)) : std::nullopt,
-                                   .discs = discs_ ? std::optional(discs_->view()) : std::nullopt});
-        commands_.submit();
-        commands_.wait();
-        Image image = renderer_.capture();
-        if (legend_) {
-            render::draw_legend(image, *legend_);
-        }
-        return image;
-    }
-
-private:
-    static render::ParticleView view(const sim::Simulation& simulation)
-    {
-        const ParticleBuffers& particles = simulation.particles();
-        return {.position = particles.position,
-                .velocity = particles.velocity,
-                .density = particles.density,
-                .pressure = particles.pressure,
-                .attributes = particles.attributes,
-                .count = particles.count,
-                .freed_at = simulation.release_time(),
-                .id = &particles.id,
-                .time = static_cast<float>(simulation.time())};
-    }
-
-    render::Renderer renderer_;
-    gpu::Commands commands_;
-    std::optional<render::DiscBuffers> discs_;
-    render::FrameSettings settings_;
-    std::optional<render::Legend> legend_;
 };
 
 std::string describe_steps(const Scene& scene, const shared::SphParams& params)
@@ -417,7 +356,7 @@ RunSummary run_scene(const gpu::Context& context, const Scene& scene, const RunO
     std::optional<sim::Simulation>& simulation = started.simulation;
     const shared::SphParams& params = started.params;
     const std::uint32_t particle_count = simulation ? simulation->particles().count : 0;
-    FramePainter painter(context, scene, params);
+    FramePainter painter(context, scene, params, simulation ? &*simulation : nullptr);
     std::optional<TableFile> statistics_file;
     if (!options.stats.empty()) {
         statistics_file.emplace(options.stats, statistics_header());

@@ -45,6 +45,8 @@ public:
     /// a particle in it, for what it loses beyond itself is not taken from the next one. Infinite where nothing erodes.
     [[nodiscard]] double longest_look() const;
 
+    /// vec2, by id: D as a two-float.
+    [[nodiscard]] const gpu::Buffer& damage() const { return damage_; }
     /// D, by id. Waits.
     [[nodiscard]] std::vector<double> download_damage() const;
 

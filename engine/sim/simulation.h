@@ -70,6 +70,15 @@ public:
     [[nodiscard]] const shared::SphParams& params() const { return params_; }
     /// When fronts or heat have freed who is solid no more, or fronts will: float by id, s. Null where nothing does.
     [[nodiscard]] const gpu::Buffer* release_time() const { return erosion_ ? &erosion_->release_time() : nullptr; }
+    /// For passes of others over the particles as they lie: shared::SphParams, and the grid's cell starts.
+    [[nodiscard]] const gpu::Buffer& params_buffer() const { return params_buffer_; }
+    [[nodiscard]] const gpu::Buffer& cell_start() const { return grid_.cell_start; }
+    /// vec2 by id, two-floats: J/kg, and how far hydraulic erosion has come. Null where nobody follows them.
+    [[nodiscard]] const gpu::Buffer* enthalpy_buffer() const
+    {
+        return melting_ ? &melting_->heat().enthalpy() : nullptr;
+    }
+    [[nodiscard]] const gpu::Buffer* damage_buffer() const { return hydraulic_ ? &hydraulic_->damage() : nullptr; }
     /// Steps since the start.
     [[nodiscard]] std::uint64_t step() const { return step_; }
     /// s since the start.

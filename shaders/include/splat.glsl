@@ -5,6 +5,7 @@
 // sphere, the tangents from the eye. Whatever crosses the near plane is bounded by its part beyond it.
 #ifndef SPLAT_GLSL
 #define SPLAT_GLSL
+#include "include/tangent_frame.glsl"
 #include "shared/particle_state.h"
 
 #include "shared/render_params.h"
@@ -159,6 +160,7 @@ vec4 disc_bound(SplatCamera camera, vec3 center, vec3 normal, float radius)
 // --- the quad that covers a bound ----------------------------------------------------------------------------------------
 
 const uint VERTICES_PER_QUAD = 6u;
+const vec4 NO_QUAD = vec4(2.0, 2.0, 0.0, 1.0); // outside of the screen
 const float BOUND_MARGIN = 0.25; // samples: more than rasterization rounds positions by
 
 // Clip-space position of one of the quad's six vertices, at the depth of the splat's nearest point: no fragment is nearer,
@@ -170,7 +172,7 @@ vec4 quad_vertex(SplatCamera camera, vec4 bound, float nearest, uint vertex)
     vec2 low = max(min(a, b) - BOUND_MARGIN * camera.pixel, vec2(-1.0));
     vec2 high = min(max(a, b) + BOUND_MARGIN * camera.pixel, vec2(1.0));
     if (!(bound.x <= bound.z && bound.y <= bound.w && low.x < high.x && low.y < high.y)) {
-        return vec4(2.0, 2.0, 0.0, 1.0);
+        return NO_QUAD;
     }
     // 0 1 2, 2 1 3
     uint corner = vertex < 3u ? vertex : (vertex == 3u ? 2u : (vertex == 4u ? 1u : 3u));
@@ -179,7 +181,19 @@ vec4 quad_vertex(SplatCamera camera, vec4 bound, float nearest, uint vertex)
     return vec4(ndc, min(depth_at(camera, max(nearest, camera.near_distance)) * slack, 1.0), 1.0);
 }
 
-// The radius of a particle's sphere: dust shrinks with what is left of it, which lies in its density.
+// A disc's normal where it is met, q off its center, all in one space: `normal` in the middle, and bend.x, y, z say how much
+// of u, of u and v, and of v it takes on a meter along u, along v and u, and along v (tangent_frame).
+vec3 bent_normal(vec3 normal, vec3 bend, vec3 q)
+{
+    vec3 u;
+    vec3 v;
+    tangent_frame(normal, u, v);
+    vec2 at = vec2(dot(q, u), dot(q, v));
+    return normalize(normal + dot(bend.xy, at) * u + dot(bend.yz, at) * v);
+}
+
+// The radius of a particle's sphere where it has no size of its own: dust shrinks with what is left of it, which lies in its
+// density.
 float particle_radius(float radius, uint attributes, float density)
 {
     return particle_state(attributes) == STATE_DUST ? radius * pow(density, 1.0 / 3.0) : radius;

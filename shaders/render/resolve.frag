@@ -22,6 +22,9 @@ layout(binding = 10, scalar) readonly buffer DiscColors { vec4 disc_color[]; };
 layout(binding = 11, scalar) readonly buffer Ids { uint id[]; };
 layout(binding = 12, scalar) readonly buffer FreedAt { float freed_at[]; }; // by id, s
 
+layout(binding = 13, scalar) readonly buffer Sizes { float size[]; }; // in radii, where params.sized
+layout(binding = 14, scalar) readonly buffer DiscBends { vec4 disc_bend[]; };
+
 layout(location = 0) out vec4 out_color;
 
 vec3 to_world(vec3 point) { return (params.view_to_world * vec4(point, 1.0)).xyz; }
@@ -82,7 +85,8 @@ Surface sphere_surface(uint particle, Ray ray)
 {
     vec3 center = (params.camera.view * vec4(position[particle].xyz, 1.0)).xyz;
     float miss;
-    float radius = particle_radius(params.splat_radius, attributes[particle], density[particle]);
+    float radius = params.sized != 0u ? params.splat_radius * size[particle]
+                                      : particle_radius(params.splat_radius, attributes[particle], density[particle]);
     vec3 point = intersect_sphere(params.camera, ray, center, radius, miss);
     vec3 normal = to_world_direction(normalize(point - center));
     return Surface(to_world(point), normal, particle_color(particle), particle_gloss(particle));
@@ -91,11 +95,18 @@ Surface sphere_surface(uint particle, Ray ray)
 Surface disc_surface(uint disc, Ray ray)
 {
     vec3 center = (params.camera.view * vec4(disc_position_radius[disc].xyz, 1.0)).xyz;
-    vec3 normal = normalize(mat3(params.camera.view) * disc_normal[disc].xyz);
+    vec3 normal = normalize(disc_normal[disc].xyz);
+    vec3 seen_normal = mat3(params.camera.view) * normal;
     float rho_squared;
-    vec3 point = intersect_disc(ray, center, normal, disc_position_radius[disc].w, rho_squared);
-    normal = to_world_direction(dot(normal, ray.direction) > 0.0 ? -normal : normal);
-    return Surface(to_world(point), normal, disc_color[disc].rgb, STONE);
+    vec3 point = intersect_disc(ray, center, seen_normal, disc_position_radius[disc].w, rho_squared);
+    vec4 bend = disc_bend[disc];
+    if (disc_normal[disc].w == DISC_BENT) {
+        normal = bent_normal(normal, bend.xyz, to_world_direction(point - center));
+    }
+    normal = dot(seen_normal, ray.direction) > 0.0 ? -normal : normal;
+    Gloss gloss = Gloss(mix(STONE.specular, WATER.specular, bend.w), mix(STONE.exponent, WATER.exponent, bend.w),
+                        mix(STONE.rim, WATER.rim, bend.w));
+    return Surface(to_world(point), normal, disc_color[disc].rgb, gloss);
 }
 
 // --- floor -----------------------------------------------------------------------------------------------------------------

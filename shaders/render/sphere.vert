@@ -8,6 +8,7 @@
 layout(binding = 0, scalar) readonly buffer Positions { vec4 position[]; };
 layout(binding = 1, scalar) readonly buffer Attributes { uint attributes[]; };
 layout(binding = 2, scalar) readonly buffer Densities { float density[]; }; // of dust: what is left of it
+layout(binding = 3, scalar) readonly buffer Sizes { float size[]; }; // in radii, where push.sized
 layout(push_constant, scalar) uniform Push { SplatPush push; };
 
 layout(location = 0) flat out vec3 out_center; // view space
@@ -18,13 +19,16 @@ void main()
 {
     uint particle = uint(gl_VertexIndex) / VERTICES_PER_QUAD;
     vec3 center = (push.camera.view * vec4(position[particle].xyz, 1.0)).xyz;
-    float radius = particle_radius(push.radius, attributes[particle], density[particle]);
+    float radius = push.sized != 0u ? push.radius * size[particle]
+                                    : particle_radius(push.radius, attributes[particle], density[particle]);
 
-    vec4 bound = NOWHERE.xxyy;
-    if (particle_state(attributes[particle]) != STATE_DEAD && radius > 0.0) {
-        bound = sphere_bound(push.camera, center, radius);
+    gl_Position = NO_QUAD;
+    // One round, or none, as in disc.vert.
+    uint rounds = particle_state(attributes[particle]) != STATE_DEAD && radius > 0.0 ? 1u : 0u;
+    for (uint k = 0u; k < rounds; ++k) {
+        vec4 bound = sphere_bound(push.camera, center, radius);
+        gl_Position = quad_vertex(push.camera, bound, -center.z - radius, uint(gl_VertexIndex) % VERTICES_PER_QUAD);
     }
-    gl_Position = quad_vertex(push.camera, bound, -center.z - radius, uint(gl_VertexIndex) % VERTICES_PER_QUAD);
     out_center = center;
     out_particle = particle;
     out_radius = radius;

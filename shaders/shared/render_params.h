@@ -19,6 +19,14 @@ SHARED_CONSTANT uint SURFACE_DISC = 2u;
 SHARED_CONSTANT uint SURFACE_LINE = 3u;
 SHARED_CONSTANT uint SURFACE_SHIFT = 30u;
 
+// Discs, in the w of their normals. Flat ones are seen from both sides, the others from outside.
+SHARED_CONSTANT float DISC_FLAT = 0.0f;
+SHARED_CONSTANT float DISC_BENT = 1.0f; // its normals turn along it, and it ends where the surface has left its plane
+SHARED_CONSTANT float DISC_EDGED = 2.0f; // flat, and cut off along a line
+
+// In radii of a bent disc: how far the surface may be off its plane.
+SHARED_CONSTANT float BENT_OFF = 0.15f;
+
 // A camera as splats need it. View space is right-handed and looks along -z; d = -z is the distance along the view axis.
 // The view plane of a point is (x, y)/d, of an orthographic camera (x, y): straight lines in it are straight on screen.
 struct SplatCamera {
@@ -36,6 +44,7 @@ struct SplatCamera {
 struct SplatPush {
     SplatCamera camera;
     float radius; // m, of spheres
+    uint sized;   // as in RenderParams
 };
 
 // What all passes of a frame read.
@@ -64,6 +73,7 @@ struct RenderParams {
     vec3 solid_color[MAX_MATERIALS]; // of it as a solid
     float rest_density[MAX_MATERIALS]; // kg/m^3
     float time;       // s, of the frame
+    uint sized;       // 1: each sphere has a size of its own
     float blend_time; // s, in which what was solid takes on the color of its fluid; 0 where nobody knows when it was freed
 };
 

@@ -1,0 +1,49 @@
+#version 460
+#extension GL_GOOGLE_include_directive : require
+// Surface splats go with the three solid particles that each belongs to (shared/solid_splats.h). Twin:
+// engine/reference/solid_splats.cpp.
+#include "include/invocation.glsl"
+#include "shared/render_params.h"
+#include "shared/solid_splats.h"
+
+layout(push_constant, scalar) uniform Push { SolidSplatPush push; };
+layout(set = 0, binding = 0, scalar) uniform Params { SphParams params; };
+layout(set = 0, binding = 1, scalar) buffer Hosted { HostedSplat hosted[]; };
+layout(set = 0, binding = 2, scalar) readonly buffer Place { uint place[]; };   // by id
+layout(set = 0, binding = 3, scalar) readonly buffer Living { vec4 living[]; }; // w: 1 - p of solids, else at most 0
+layout(set = 0, binding = 4, scalar) readonly buffer Kept { vec2 kept[]; }; // by id: how wet, ...
+layout(set = 0, binding = 5, scalar) writeonly buffer DiscPosition { vec4 disc_position[]; };
+layout(set = 0, binding = 6, scalar) writeonly buffer DiscNormal { vec4 disc_normal[]; };
+layout(set = 0, binding = 7, scalar) writeonly buffer DiscColor { vec4 disc_color[]; };
+layout(set = 0, binding = 8, scalar) writeonly buffer DiscBend { vec4 disc_bend[]; };
+
+void main()
+{
+    uint i = invocation_index();
+    if (i >= push.hosted) {
+        return;
+    }
+    HostedSplat splat = hosted[i];
+    vec4 a = living[place[splat.host.x]];
+    vec4 b = living[place[splat.host.y]];
+    vec4 c = living[place[splat.host.z]];
+    float mean_progress = dot(splat.weight, 1.0 - max(vec3(a.w, b.w, c.w), 0.0));
+    float worst_progress = 1.0 - max(min(min(a.w, b.w), c.w), 0.0);
+    vec3 first = b.xyz - a.xyz;
+    vec3 second = c.xyz - a.xyz;
+    mat3 frame = mat3(first, second, cross(first, second) / params.spacing);
+    vec3 normal = normalize(frame * splat.normal);
+    float recession = RECESSION * params.spacing * mean_progress;
+    vec3 center = a.xyz + frame * splat.offset - recession * normal;
+    float radius = splat.radius * (1.0 - smooth_ramp(DYING_FROM, 1.0, worst_progress));
+    if (worst_progress >= 1.0) {
+        hosted[i].radius = 0.0;
+    }
+    float wetness = dot(splat.weight, vec3(kept[splat.host.x].x, kept[splat.host.y].x, kept[splat.host.z].x));
+
+    uint disc = push.first_hosted + i;
+    disc_position[disc] = vec4(center, radius);
+    disc_normal[disc] = vec4(normal, DISC_EDGED);
+    disc_color[disc] = vec4(splat.color * mix(1.0, splat.wet_albedo, wetness), splat.edge_distance - recession);
+    disc_bend[disc] = vec4(frame * splat.edge, wetness);
+}
