@@ -241,14 +241,18 @@ SandChanges look_at_sand(const Settings& settings, const SandScene& scene, State
         const std::uint32_t id = state.id[i];
         const double top = ground_at(scene, texel).top;
         if (has_come_down(i)) {
-            const WayDown down =
-                way_down(settings, scene, texel, top + d, id, shared::ANY_SLOPE, shared::STEEPEST_STEP + 1.0f);
+            const bool is_gentle =
+                glm::length(ground_at(scene, texel).slope) < static_cast<double>(shared::GENTLE_SLOPE);
+            const float steepest_step = shared::STEEPEST_STEP + (is_gentle ? 0.0f : 1.0f);
+            const WayDown down = way_down(settings, scene, texel, top + d, id, shared::ANY_SLOPE, steepest_step);
             if (down.way == shared::WAY_NONE) {
                 claim(texel, id);
             } else { // rolls on
+                const glm::ivec2 there = neighbor_of(settings, scene, texel, down.way);
+                const bool falls = down.drop > static_cast<double>(shared::HIGHEST_SLIDE);
                 state.position[i] =
-                    place_in_column(settings, scene, neighbor_of(settings, scene, texel, down.way), top + d);
-                sand.rests[id] = 0;
+                    place_in_column(settings, scene, there, falls ? top + d : ground_at(scene, there).top + d);
+                sand.rests[id] = falls ? 0 : 1;
                 ++changes.rolled;
             }
         } else if (slides && is_solid(i) && material(i).erodes != 0 && columns.top_id[index_of(scene, texel)] == id) {

@@ -28,6 +28,7 @@ SHARED_CONSTANT float REATTACHMENT_SLOPE = 1.0f / 6.0f;
 SHARED_CONSTANT int GROUND_REACH = 3;         // texels of a spacing on each side, to which the ground's plane is fitted
 SHARED_CONSTANT float STEEPEST_STEP = 1.5f;   // between neighboring columns, of sand at any angle of repose: no towers
 SHARED_CONSTANT float ANY_SLOPE = 1e30f;      // of the ground: nothing is too steep
+SHARED_CONSTANT float GENTLE_SLOPE = 0.3f;    // of the ground: less never makes a step too steep by itself
 SHARED_CONSTANT float LEAST_STEP = 0.9f;      // down which a grain slides: it is to end no higher than it was
 SHARED_CONSTANT float HIGHEST_SLIDE = 2.5f;   // a grain that is to come down by more than so falls
 SHARED_CONSTANT float EQUAL_STEP = 1e-3f;     // steps that differ by less are the same: the first of them is taken
@@ -39,7 +40,7 @@ SHARED_CONSTANT uint WAY_TAKEN = 9u; // the wind has taken it
 SHARED_CONSTANT uint WAY_FALLS = 16u; // added to the others: it falls there, instead of sliding
 
 SHARED_CONSTANT float LEAST_LAUNCH = 0.7f;   // speed of the slowest over that of the mean; the fastest has as much more
-SHARED_CONSTANT float FLYING_VOLUME = 0.25f; // that is seen of a particle while it hops: its sand is spread out
+SHARED_CONSTANT float FLYING_VOLUME = 0.06f; // that is seen of a particle while it hops: its sand is spread out
 
 struct WindMaterial {
     uint erodes;           // 1 of sand

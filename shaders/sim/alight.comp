@@ -1,7 +1,7 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 // Sand that has come down is to be the top of its column, and says so there (slide.comp): nobody is solid yet, land.comp makes it
-// so. Where it would stand up like a tower it rolls on to the lowest column beside it. Twin: engine/reference/wind.cpp.
+// so. Where it would stand up like a tower, or beside a hole, it rolls on to the lowest column beside it. Twin: engine/reference/wind.cpp.
 #include "include/invocation.glsl"
 #include "shared/particle_state.h"
 #include "shared/sph_params.h"
@@ -28,11 +28,14 @@ void main()
     }
     ivec2 here = texel_at(position[i].xyz);
     float height = ground_at(here).top + params.spacing;
-    WayDown down = way_down(here, height, id[i], ANY_SLOPE, STEEPEST_STEP + 1.0);
+    bool is_gentle = length(ground_at(here).slope) < GENTLE_SLOPE; // there holes are filled
+    WayDown down = way_down(here, height, id[i], ANY_SLOPE, is_gentle ? STEEPEST_STEP : STEEPEST_STEP + 1.0);
     if (down.way == WAY_NONE) {
         atomicMin(claim[index_of(here)], id[i]);
     } else {
-        position[i].xyz = place_in_column(neighbor_of(here, down.way), height);
-        rests[id[i]] = 0u;
+        ivec2 there = neighbor_of(here, down.way);
+        bool falls = down.drop > HIGHEST_SLIDE;
+        position[i].xyz = place_in_column(there, falls ? height : ground_at(there).top + params.spacing);
+        rests[id[i]] = falls ? 0u : 1u;
     }
 }

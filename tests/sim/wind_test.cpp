@@ -275,7 +275,7 @@ TEST_F(SandTest, GrainsHopAsFarAsTheyAreMeantTo)
         expected += 0.5 / 20.0;
     }
     sim::Simulation simulation(context(), start, its);
-    simulation.advance(150);
+    simulation.advance(200);
     const ParticleSet now = simulation.download();
     double mean = 0.0;
     for (const std::size_t i : flying) {
