@@ -18,7 +18,9 @@ struct Floating {
     int edge;  // of the cube, spacings
     int depth; // of the water, spacings
     int width; // of the basin, spacings
+    double start;  // what of the edge is under water at first
     double seconds;
+    double settled; // s, from which on the mean is taken: a whole number of periods, or it would be that of a swing
 };
 
 inline constexpr double floating_spacing = 0.02; // m
@@ -29,7 +31,7 @@ inline std::string basin(const Floating& its)
     const double width = its.width * floating_spacing;
     const double depth = its.depth * floating_spacing;
     const double edge = its.edge * floating_spacing;
-    const double bottom = depth - 0.8 * edge; // somewhat too high
+    const double bottom = depth - its.start * edge;
     const double side = 0.5 * (width - edge);
     std::string text = fmt::format(R"(
 solver = "{}"
@@ -63,8 +65,7 @@ viscosity = 1
     return text;
 }
 
-/// The mass of the water that the cube displaces over its own, mean over the last three fifths of the time, in
-/// which it goes up and down once. The level is that of the volume of water and what of the cube is below it.
+/// The mass of the water that the cube displaces over its own, mean over the time after it has settled. The level is that of the volume of water and what of the cube is below it.
 inline double displaced_share(const gpu::Context& context, const Floating& its)
 {
     StartedScene started = start_scene(context, parse_scene(basin(its), "basin", ".", {}));
@@ -77,7 +78,7 @@ inline double displaced_share(const gpu::Context& context, const Floating& its)
     int samples = 0;
     while (simulation.time() < its.seconds) {
         simulation.advance_by(0.02);
-        if (simulation.time() < 0.4 * its.seconds) {
+        if (simulation.time() < its.settled) {
             continue;
         }
         const ParticleSet now = simulation.download();
