@@ -123,8 +123,12 @@ std::size_t deposit(const Settings& settings, const shared::HydraulicParams& hyd
             continue;
         }
         const bool is_slow = glm::length(state.velocity[i]) < static_cast<double>(hydraulic.deposition_speed);
-        const bool rests = is_slow && (rests_on_floor(settings, state.position[i]) ||
-                                       rests_on_solid(settings, state, state.position[i]));
+        const double rest_density =
+            static_cast<double>(settings.params.rest_density[shared::particle_material(attributes)]);
+        const bool has_room = state.density[i] < static_cast<double>(shared::MOST_CROWDED) * rest_density;
+        const bool rests =
+            has_room && is_slow &&
+            (rests_on_floor(settings, state.position[i]) || rests_on_solid(settings, state, state.position[i]));
         double& left = damage[state.id[i]];
         left = rests ? left - seconds / static_cast<double>(hydraulic.deposition_time) : 1.0;
         if (left <= 0.0) {

@@ -78,7 +78,7 @@ void Hydraulic::record_changes(gpu::Commands& commands, const gpu::Buffer& param
     commands.dispatch(deposit_, particles.moving, static_cast<float>(seconds),
                       {read(params), read(grid.cell_start), read(params_), read(particles.id), read(particles.position),
                        read_write(damage_), read_write(particles.attributes), read_write(particles.velocity),
-                       gpu::write(release_time), read_write(changes)});
+                       gpu::write(release_time), read_write(changes), read(particles.density)});
     commands.dispatch(detach_, particles.count, static_cast<float>(time),
                       {read(params), read(params_), read(particles.id), read_write(damage_),
                        read_write(particles.attributes), read_write(particles.velocity), gpu::write(release_time),

@@ -20,6 +20,10 @@ SHARED_BEGIN
 SHARED_CONSTANT float RESTING_DISTANCE = 1.5f;
 SHARED_CONSTANT float RESTING_COSINE = 0.7f;
 
+// Density over that at rest, from which on sediment stays fluid: as a solid that lies too near to others it would squeeze out whoever
+// comes free there next.
+SHARED_CONSTANT float MOST_CROWDED = 1.05f;
+
 struct HydraulicParams {
     float consistency;      // K, Pa s^n
     float flow_exponent;    // n

@@ -21,6 +21,7 @@ layout(set = 0, binding = 6, scalar) buffer Attributes { uint attributes[]; };
 layout(set = 0, binding = 7, scalar) buffer Velocity { vec4 velocity[]; }; // w: mass, negative of boundary particles
 layout(set = 0, binding = 8, scalar) writeonly buffer ReleaseTime { float release_time[]; }; // by id, s
 layout(set = 0, binding = 9, scalar) buffer Changes { PoolChanges changes; };
+layout(set = 0, binding = 10, scalar) readonly buffer Density { float density[]; };
 
 // Whether the way to what is there leads down; where there is no gravity, every way does.
 bool is_below(vec3 way) { return dot(way, params.gravity) >= RESTING_COSINE * length(way) * length(params.gravity); }
@@ -65,7 +66,8 @@ void main()
     }
     uint slot = id[i];
     vec3 x = position[i].xyz;
-    bool rests = length(velocity[i].xyz) < hydraulic.deposition_speed && (rests_on_floor(x) || rests_on_solid(x));
+    bool has_room = density[i] < MOST_CROWDED * params.rest_density[particle_material(attributes[i])];
+    bool rests = has_room && length(velocity[i].xyz) < hydraulic.deposition_speed && (rests_on_floor(x) || rests_on_solid(x));
     vec2 left = rests ? two_float_add(damage[slot], -seconds / hydraulic.deposition_time) : vec2(1.0, 0.0);
     bool is_whole = left.x <= 0.0;
     damage[slot] = is_whole ? vec2(0.0) : left;
