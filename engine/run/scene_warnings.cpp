@@ -168,6 +168,16 @@ std::optional<std::string> shifted_surface(const Scene& scene, const ParticleSet
                        share);
 }
 
+/// Columns of sand know of solids alone.
+std::optional<std::string> wet_sand(const Scene& scene)
+{
+    if (!has_sand(scene) || (fluid_bodies(scene).empty() && scene.emitters.empty())) {
+        return std::nullopt;
+    }
+    return "sand (wind_erodes) that comes down or slides does not push fluid aside: where they meet, fluid is thrown "
+           "up";
+}
+
 } // namespace
 
 std::vector<std::string> scene_warnings(const Scene& scene, const ParticleSet& particles)
@@ -176,7 +186,7 @@ std::vector<std::string> scene_warnings(const Scene& scene, const ParticleSet& p
     for (const std::optional<std::string>& warning :
          {coarse_positions(scene), idle_viscosity(scene), idle_tension(scene), unread_tension(scene),
           idle_contact_angle(scene), unmeasured_tension(scene), idle_clamp(scene), idle_lid(scene), endless_fall(scene),
-          shifted_surface(scene, particles)}) {
+          shifted_surface(scene, particles), wet_sand(scene)}) {
         if (warning) {
             warnings.push_back(*warning);
         }

@@ -260,9 +260,20 @@ private:
         if (glm::length(glm::cross(scene_.wind.direction, gravity)) == 0.0f) {
             fail("wind.direction", "does not lead over the ground: it is along gravity, or has no length");
         }
+        if (is_flat() && scene_.wind.direction.z != 0.0f) {
+            fail("wind.direction", "leads out of the plane of two dimensions");
+        }
         for (std::size_t i = 0; i < scene_.solids.size(); ++i) {
-            if (scene_.solids[i].wind_erodes && scene_.solids[i].melts) {
-                fail(fmt::format("solid.{}.melts", i), "is true, but it is sand (wind_erodes), which does not melt");
+            const SolidBody& solid = scene_.solids[i];
+            const std::string prefix = fmt::format("solid.{}.", i);
+            if (solid.wind_erodes && solid.melts) {
+                fail(prefix + "melts", "is true, but it is sand (wind_erodes), which does not melt");
+            }
+            if (solid.wind_erodes && solid.erosion.erodes) {
+                fail(prefix + "erodes", "is true, but it is sand (wind_erodes), which no fluid carries off");
+            }
+            if (solid.wind_erodes && solid.dissolve.speed > 0.0f) {
+                fail(prefix + "dissolve_speed", "is above 0, but it is sand (wind_erodes), which does not dissolve");
             }
         }
     }

@@ -59,7 +59,9 @@ double launch_speed(double response, const WindSettings& settings, double gravit
     double low = 0.0;
     double high = fastest_launch;
     if (hop_length(high, response, settings, gravity) < settings.hop_length) {
-        throw input_error("hops of {} m are longer than a wind of a friction velocity of {} m/s carries sand",
+        throw input_error("hops of {:.4g} m (wind.hop_length) are longer than a wind of a friction velocity of {:.4g} "
+                          "m/s carries such "
+                          "sand (grain_size, grain_density)",
                           settings.hop_length, settings.friction_velocity);
     }
     for (int i = 0; i < 60; ++i) {
@@ -141,8 +143,8 @@ shared::WindParams wind_params(const WindSettings& settings, const shared::SphPa
     const double spacing = static_cast<double>(params.spacing);
     const bool blows = settings.friction_velocity > 0.0;
     if (blows && settings.hop_length < least_hop * spacing) {
-        throw input_error("hops of {} m are shorter than {} particle spacings of {} m", settings.hop_length, least_hop,
-                          spacing);
+        throw input_error("hops of {:.4g} m (wind.hop_length) are shorter than {} particle spacings of {:.4g} m",
+                          settings.hop_length, least_hop, spacing);
     }
     const glm::dvec3 low(params.domain_min);
     const glm::dvec3 high(params.domain_max);

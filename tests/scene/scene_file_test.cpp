@@ -600,10 +600,16 @@ Scene random_scene(std::uint64_t seed)
     }
     for (SolidBody& solid : scene.solids) { // neither heat nor flow turns any into dust
         solid.temperature = solid.thermal.melting_point - 3.5f;
-        solid.melts = solid.melts && !solid.wind_erodes; // nor does sand melt
+        if (solid.wind_erodes) { // nor does sand turn into fluid
+            solid.melts = false;
+            solid.erosion.erodes = false;
+            solid.dissolve.speed = 0.0f;
+        }
         solid.becomes = solid.melts || solid.erosion.erodes ? SolidBecomes::Fluid : solid.becomes;
         solid.erosion.grain_size = std::nullopt; // grains are heavier than the fluid
     }
+    scene.wind.direction = glm::vec3(scene.wind.direction.x, scene.wind.direction.y,
+                                     scene.domain.dimensions == 2 ? 0.0f : scene.wind.direction.z);
     for (EmitterBody& emitter : scene.emitters) {
         emitter.fluid.temperature = emitter.fluid.thermal.melting_point + 3.5f;
         emitter.velocity.x += 3.0f;
