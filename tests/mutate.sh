@@ -1561,9 +1561,14 @@ mutation "deposit: sediment sticks to flanks" \
     conformance_tests 'HydraulicTest.SedimentSlidesOffSteepFlanks'
 mutation "deposit: sediment heals while it falls" \
     shaders/sim/deposit.comp \
-    'bool rests = length(velocity[i].xyz) < hydraulic.deposition_speed && (rests_on_floor(x) || rests_on_solid(x));' \
+    'bool rests = has_room && length(velocity[i].xyz) < hydraulic.deposition_speed && (rests_on_floor(x) || rests_on_solid(x));' \
     'bool rests = true;' \
     conformance_tests 'HydraulicTest.SedimentThatRestsIsSolidAgain'
+mutation "deposit: sediment settles where it is crowded" \
+    shaders/sim/deposit.comp \
+    'density[i] < MOST_CROWDED *' \
+    'density[i] < 1e6 *' \
+    conformance_tests 'HydraulicTest.LooksAreTheTwins'
 mutation "deposit: water settles" \
     shaders/sim/deposit.comp \
     'cause_of(attributes[i]) != CAUSE_HYDRAULIC || ' \
