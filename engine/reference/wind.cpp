@@ -112,7 +112,7 @@ WayDown way_down(const Settings& settings, const SandScene& scene, const glm::iv
     const bool on_steep_ground = glm::length(plane) > static_cast<double>(steepest_ground);
     WayDown found;
     double steepest = 0.0;
-    const std::uint32_t first = id * 2654435769u >> 29u;
+    const std::uint32_t first = shared::first_way(id);
     for (std::uint32_t turn = 0; turn < 8; ++turn) {
         std::uint32_t k = (first + turn) % 8;
         k += k >= shared::WAY_NONE ? 1 : 0;

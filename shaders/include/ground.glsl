@@ -49,7 +49,7 @@ WayDown way_down(ivec2 texel, float height, uint its_id, float steepest_ground, 
     bool on_steep_ground = length(plane) > steepest_ground;
     WayDown found = WayDown(WAY_NONE, 0.0);
     float steepest = 0.0; // drop over distance
-    uint first = its_id * 2654435769u >> 29u; // of equal ways: no side is preferred
+    uint first = first_way(its_id);
     for (uint turn = 0u; turn < 8u; ++turn) {
         uint k = (first + turn) % 8u;
         k += k >= WAY_NONE ? 1u : 0u;

@@ -70,6 +70,9 @@ SHARED_FUNCTION float stress_on_slope(float slope)
 // From 0 to 1, as random as an id is (Knuth's multiplicative hash).
 SHARED_FUNCTION float random_share(uint id) { return float((id * 2654435769u) >> 8u) / 16777216.0f; }
 
+// Which of eight equal ways a grain takes, 0 to 7: no side is preferred.
+SHARED_FUNCTION uint first_way(uint id) { return id * 2654435769u >> 29u; }
+
 // Of a hop, over that of a mean one.
 SHARED_FUNCTION float launch_share(uint id)
 {
