@@ -143,13 +143,15 @@ std::size_t deposit(const Settings& settings, const shared::HydraulicParams& hyd
     return deposited.size();
 }
 
-std::size_t detach(const shared::HydraulicParams& hydraulic, State& state, std::span<double> damage)
+std::size_t detach(const shared::HydraulicParams& hydraulic, State& state, Damage damage, double ahead)
 {
     std::size_t freed = 0;
     for (std::size_t i = 0; i < state.size(); ++i) {
+        const std::uint32_t id = state.id[i];
         if (shared::particle_state(state.attributes[i]) == shared::STATE_SOLID &&
-            hydraulic.erodes[shared::particle_material(state.attributes[i])] != 0 && damage[state.id[i]] >= 1.0) {
-            damage[state.id[i]] = 1.0;
+            hydraulic.erodes[shared::particle_material(state.attributes[i])] != 0 &&
+            damage.done[id] + damage.rate[id] * ahead >= 1.0) {
+            damage.done[id] = 1.0;
             state.attributes[i] = shared::freed_as(state.attributes[i], shared::STATE_FLUID, shared::CAUSE_HYDRAULIC);
             ++freed;
         }

@@ -27,7 +27,8 @@ void scour(const Settings& settings, const shared::HydraulicParams& hydraulic, c
 std::size_t deposit(const Settings& settings, const shared::HydraulicParams& hydraulic, State& state,
                     std::span<double> damage, double seconds);
 
-/// Twin of sim/detach.comp: solids that are worn away turn into fluid. How many they are.
-std::size_t detach(const shared::HydraulicParams& hydraulic, State& state, std::span<double> damage);
+/// Twin of sim/detach.comp: solids that are worn away, or will be `ahead` (s) from now, turn into fluid. How many
+/// they are.
+std::size_t detach(const shared::HydraulicParams& hydraulic, State& state, Damage damage, double ahead);
 
 } // namespace meltpoint::reference

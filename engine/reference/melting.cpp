@@ -71,13 +71,18 @@ void warm(const Settings& settings, const shared::HeatParams& heat, const shared
 }
 
 std::size_t melt(const shared::HeatParams& heat, const shared::MeltingParams& melting, State& state,
-                 std::span<const double> enthalpy)
+                 std::span<const double> enthalpy, std::span<double> before, double ahead)
 {
     std::size_t melted = 0;
     for (std::size_t i = 0; i < state.size(); ++i) {
+        if (shared::particle_state(state.attributes[i]) != shared::STATE_SOLID) {
+            continue;
+        }
         const std::uint32_t material = shared::particle_material(state.attributes[i]);
-        if (shared::particle_state(state.attributes[i]) == shared::STATE_SOLID && melting.melts[material] != 0 &&
-            enthalpy[state.id[i]] >= static_cast<double>(heat.of[material].latent_heat)) {
+        const double now = enthalpy[state.id[i]];
+        const double gain = std::max(now - before[state.id[i]], 0.0);
+        before[state.id[i]] = now;
+        if (melting.melts[material] != 0 && now + ahead * gain >= static_cast<double>(heat.of[material].latent_heat)) {
             state.attributes[i] = shared::freed_as(state.attributes[i], shared::STATE_FLUID, shared::CAUSE_MELT);
             ++melted;
         }

@@ -17,7 +17,7 @@ using gpu::read_write;
 namespace {
 
 /// Part of a particle that flow may carry off from one look to the next.
-constexpr double largest_loss = 0.025;
+constexpr double largest_loss = 0.2;
 
 /// Of passes in which a few particles walk, each alone, through the moving or the still ones.
 FluidOptions one_by_one(FluidOptions options)
@@ -72,17 +72,18 @@ void Hydraulic::record_scour(gpu::Commands& commands, const gpu::Buffer& params,
 
 void Hydraulic::record_changes(gpu::Commands& commands, const gpu::Buffer& params, const ParticleBuffers& particles,
                                const NeighborGrid& grid, const gpu::Buffer& release_time, const gpu::Buffer& changes,
-                               double time, double seconds) const
+                               double time, double seconds, double next_seconds) const
 {
     const gpu::Scope scope(commands, "deposit and detach");
     commands.dispatch(deposit_, particles.moving, static_cast<float>(seconds),
                       {read(params), read(grid.cell_start), read(params_), read(particles.id), read(particles.position),
                        read_write(damage_), read_write(particles.attributes), read_write(particles.velocity),
                        gpu::write(release_time), read_write(changes), read(particles.density)});
-    commands.dispatch(detach_, particles.count, static_cast<float>(time),
+    const shared::DetachPush push{.time = static_cast<float>(time), .ahead = static_cast<float>(0.5 * next_seconds)};
+    commands.dispatch(detach_, particles.count, push,
                       {read(params), read(params_), read(particles.id), read_write(damage_),
                        read_write(particles.attributes), read_write(particles.velocity), gpu::write(release_time),
-                       read_write(changes)});
+                       read_write(changes), read(rate_)});
 }
 
 double Hydraulic::longest_look() const

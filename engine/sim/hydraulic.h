@@ -35,14 +35,15 @@ public:
                       const NeighborGrid& grid, const Exposure& exposure, double seconds) const;
 
     /// Sediment becomes solid again where it has rested long enough, `seconds` after the last look, and solids are
-    /// freed that are worn away, counted in `changes`, shared::PoolChanges: they lie among the others yet. When a solid
-    /// is freed, `time` in s, is noted in release_time, by id.
+    /// freed that are worn away, or will be before the middle of the `next_seconds` until the next look. Both are
+    /// counted in `changes`, shared::PoolChanges: they lie among the others yet. When a solid is freed, `time` in s, is
+    /// noted in release_time, by id.
     void record_changes(gpu::Commands& commands, const gpu::Buffer& params, const ParticleBuffers& particles,
                         const NeighborGrid& grid, const gpu::Buffer& release_time, const gpu::Buffer& changes,
-                        double time, double seconds) const;
+                        double time, double seconds, double next_seconds) const;
 
-    /// s of motion, the longest from this look to the next: at the present rates nothing loses more than a fortieth of
-    /// a particle in it, for what it loses beyond itself is not taken from the next one. Infinite where nothing erodes.
+    /// s of motion, the longest from this look to the next: at the present rates nothing loses more than a fifth of
+    /// a particle in it. Infinite where nothing erodes.
     [[nodiscard]] double longest_look() const;
 
     /// vec2, by id: D as a two-float.

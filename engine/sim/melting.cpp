@@ -48,14 +48,17 @@ double shortest_melting(const shared::SphParams& params, const MeltingSettings& 
 
 Melting::Melting(const gpu::Context& context, const FluidOptions& options, const shared::SphParams& params,
                  const MeltingSettings& settings, const std::vector<std::uint32_t>& attributes)
-    : time_scale_(settings.time_scale), longest_look_(0.025 * shortest_melting(params, settings)),
+    : time_scale_(settings.time_scale), longest_look_(0.1 * shortest_melting(params, settings)),
       visibility_(context, {.direction = settings.params.sun_direction}, params),
       heat_(context, options, params, settings.heat, attributes, settings.enthalpy),
       warm_(context, "warm", sim_warm_comp, fluid_constants(context.info(), one_by_one(options))),
       melt_(context, "melt", sim_melt_comp),
       freeze_(context, "freeze", sim_freeze_comp, fluid_constants(context.info(), one_by_one(options))),
-      params_(gpu::make_buffer<shared::MeltingParams>(context, 1, "melting params"))
+      params_(gpu::make_buffer<shared::MeltingParams>(context, 1, "melting params")),
+      before_(gpu::make_buffer<float>(context, params.pool_count, "enthalpy before"))
 {
+    const std::vector<float> before(settings.enthalpy.begin(), settings.enthalpy.end());
+    gpu::upload<float>(context, before_, before);
     gpu::upload<shared::MeltingParams>(context, params_, {&settings.params, 1});
 }
 
@@ -83,7 +86,7 @@ void Melting::record_heat(gpu::Commands& commands, const FluidKernels& kernels, 
 
 void Melting::record_changes(gpu::Commands& commands, const gpu::Buffer& params, const ParticleBuffers& particles,
                              const NeighborGrid& grid, const gpu::Buffer& release_time, const gpu::Buffer& changes,
-                             float time, const gpu::Buffer* body_of) const
+                             const shared::MeltPush& push, const gpu::Buffer* body_of) const
 {
     const gpu::Scope scope(commands, "melt and freeze");
     commands.dispatch(freeze_, particles.moving, body_of != nullptr ? 1u : 0u,
@@ -91,15 +94,15 @@ void Melting::record_changes(gpu::Commands& commands, const gpu::Buffer& params,
                        read(particles.position), read_write(particles.attributes), read_write(particles.velocity),
                        write(release_time), read_write(changes),
                        read(body_of != nullptr ? *body_of : heat_.enthalpy())});
-    commands.dispatch(melt_, particles.count, time,
+    commands.dispatch(melt_, particles.count, push,
                       {read(params), read(heat_.params()), read(params_), read(particles.id), read(heat_.enthalpy()),
                        read_write(particles.attributes), read_write(particles.velocity), write(release_time),
-                       read_write(changes)});
+                       read_write(changes), read_write(before_)});
 }
 
 std::uint64_t Melting::device_bytes() const
 {
-    return visibility_.device_bytes() + heat_.device_bytes() + params_.size();
+    return visibility_.device_bytes() + heat_.device_bytes() + params_.size() + before_.size();
 }
 
 } // namespace meltpoint::sim

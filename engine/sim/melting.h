@@ -40,15 +40,15 @@ public:
                      const ParticleBuffers& particles, const NeighborGrid& grid, const Exposure& exposure,
                      double seconds) const;
 
-    /// Solids melt and fluid freezes at `time` (s), counted in `changes`, shared::PoolChanges: they lie among the
-    /// others yet. When a solid melts is noted in release_time, by id.
+    /// Solids melt and fluid freezes at push.time, counted in `changes`, shared::PoolChanges: they lie among the others
+    /// yet. When a solid melts is noted in release_time, by id.
     /// body_of: of loose solids (sim/fragments), null where there are none.
     void record_changes(gpu::Commands& commands, const gpu::Buffer& params, const ParticleBuffers& particles,
                         const NeighborGrid& grid, const gpu::Buffer& release_time, const gpu::Buffer& changes,
-                        float time, const gpu::Buffer* body_of = nullptr) const;
+                        const shared::MeltPush& push, const gpu::Buffer* body_of = nullptr) const;
 
-    /// s of motion, the longest from one look to the next: in it sun and air melt a fortieth of a particle, for
-    /// what a particle gets beyond its latent heat is lost to the next one. Infinite where neither melts anything.
+    /// s of motion, the longest from one look to the next: in it sun and air melt a tenth of a particle. Infinite
+    /// where neither melts anything.
     [[nodiscard]] double longest_look() const { return longest_look_; }
 
     [[nodiscard]] const Heat& heat() const { return heat_; }
@@ -64,6 +64,7 @@ private:
     gpu::Kernel melt_;
     gpu::Kernel freeze_;
     gpu::Buffer params_; ///< shared::MeltingParams
+    gpu::Buffer before_; ///< float, by id: J/kg at the last look, of those who were solid then
 };
 
 } // namespace meltpoint::sim

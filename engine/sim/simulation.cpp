@@ -41,12 +41,12 @@ std::string_view describe_fault(std::uint32_t fault)
     }
 }
 
-/// s, that a piece which has broken off may stay where it is before anybody notices: in which it falls by a tenth of a
+/// s, that a piece which has broken off may stay where it is before anybody notices: in which it falls by half of a
 /// spacing. To find pieces at every look would often take longer than the steps between.
 double piece_delay(const shared::SphParams& params)
 {
     const double gravity = glm::length(glm::dvec3(params.gravity));
-    return gravity > 0.0 ? std::sqrt(0.2 * static_cast<double>(params.spacing) / gravity) : 0.0;
+    return gravity > 0.0 ? std::sqrt(static_cast<double>(params.spacing) / gravity) : 0.0;
 }
 
 const ParticleSet& checked(const gpu::Context& context, const ParticleSet& particles)
@@ -231,25 +231,28 @@ void Simulation::erode(double time)
     }
     const std::uint32_t interval = look_interval();
     next_erosion_ = step_ + interval;
+    const double next_seconds = longest_time(interval);
     if (melting_) {
         melting_->record_heat(commands, kernels_, params_buffer_, particles_, grid_, *exposure_, seconds);
     }
     erosion_->record_look(commands, params_buffer_, particles_, static_cast<float>(time));
     if (melting_) {
+        const double ahead = seconds > 0.0 ? 0.5 * next_seconds / seconds : 0.0;
         melting_->record_changes(commands, params_buffer_, particles_, grid_, erosion_->release_time(),
-                                 erosion_->changes(), static_cast<float>(time),
+                                 erosion_->changes(),
+                                 {.time = static_cast<float>(time), .ahead = static_cast<float>(ahead)},
                                  has_loose ? &fragments_->body_of() : nullptr);
     }
     if (hydraulic_) {
         hydraulic_->record_changes(commands, params_buffer_, particles_, grid_, erosion_->release_time(),
-                                   erosion_->changes(), time, seconds);
+                                   erosion_->changes(), time, seconds, next_seconds);
     }
     if (wind_) {
         wind_->record_changes(commands, params_buffer_, particles_, *exposure_, erosion_->changes(), seconds);
     }
     if (emission_) {
         emission_->record_calls(commands, params_buffer_, particles_, erosion_->release_time(), erosion_->changes(),
-                                gone_, time, time + longest_time(interval));
+                                gone_, time, time + next_seconds);
     }
     erosion_->record_readback(commands);
     commands.submit();

@@ -6,7 +6,8 @@
 // layer of fluid, and so more shear. Its stress is that of a power law, and beyond a threshold the solid loses mass:
 //     tau = K theta^n,    eps = K_eps (tau / s - tau_c)^a    in kg/(m^2 s),
 // where s is the particle's strength, 1 of what is usual. Damage D grows from 0, sound, by dD/dt = eps A / (s m), times a scale
-// of time; at 1 the particle is free: fluid of its own material, so that sediment takes up its own volume and sinks.
+// of time; at 1 the particle is free: fluid of its own material, so that sediment takes up its own volume and sinks. It is looked at
+// now and then, and freed at the look that is nearest to its time.
 //
 // Sediment that is slow and rests on a solid, or on the floor, heals, D falling to 0 in the deposition time; whatever moves it
 // on meanwhile brings it back to 1. At 0 it is solid again. D is kept by id as a two-float (shared/two_float.h).
@@ -35,6 +36,11 @@ struct HydraulicParams {
     float threshold[MAX_MATERIALS]; // tau_c, Pa
     float rate[MAX_MATERIALS];      // K_eps, kg/(m^2 s Pa^a)
     float exponent[MAX_MATERIALS];  // a
+};
+
+struct DetachPush {
+    float time;  // s
+    float ahead; // s: half of what passes until the next look
 };
 
 SHARED_END

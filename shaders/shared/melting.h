@@ -1,5 +1,6 @@
 // Melting: what sun and air give to the bare surface of solids, and who turns into fluid for it (shared/heat.h). A solid melts
-// where its latent heat is complete, H >= L; fluid freezes where none of it is left, H <= 0, and a solid is there to freeze to.
+// where its latent heat is complete, H >= L, at the look that is nearest to that time; fluid freezes where none of it is left,
+// H <= 0, and a solid is there to freeze to.
 #ifndef MELTPOINT_SHARED_MELTING_H
 #define MELTPOINT_SHARED_MELTING_H
 #include "sph_params.h"
@@ -17,6 +18,11 @@ struct MeltingParams {
     float absorptivity[MAX_MATERIALS];
     uint melts[MAX_MATERIALS];           // 1 where the solid melts
     float birth_enthalpy[MAX_MATERIALS]; // J/kg, of what emitters bring
+};
+
+struct MeltPush {
+    float time;  // s
+    float ahead; // half of what passes until the next look, over what has passed since the last one
 };
 
 // What is left on average, over x time constants, of a difference that decays: (1 - exp(-x)) / x. A look may be long for the air.

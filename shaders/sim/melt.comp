@@ -1,6 +1,7 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
-// Solid particles whose latent heat is complete turn into fluid: they keep their place, velocity, mass, material and enthalpy.
+// Solid particles whose latent heat is complete turn into fluid: they keep their place, velocity, mass, material and enthalpy. Each
+// does at the look that is nearest to its time, if heat goes on to come as it did: what one gets beyond that is lost to the next one.
 // Twin: engine/reference/melting.cpp.
 #include "include/invocation.glsl"
 #include "shared/heat.h"
@@ -8,7 +9,7 @@
 #include "shared/particle_state.h"
 #include "shared/pool_changes.h"
 
-layout(push_constant, scalar) uniform Push { float time; }; // s
+layout(push_constant, scalar) uniform Push { MeltPush push; };
 layout(set = 0, binding = 0, scalar) uniform Params { SphParams params; };
 layout(set = 0, binding = 1, scalar) uniform Heat { HeatParams heat; };
 layout(set = 0, binding = 2, scalar) uniform Melting { MeltingParams melting; };
@@ -18,6 +19,7 @@ layout(set = 0, binding = 5, scalar) buffer Attributes { uint attributes[]; };
 layout(set = 0, binding = 6, scalar) buffer Velocity { vec4 velocity[]; }; // w: mass, negative of boundary particles
 layout(set = 0, binding = 7, scalar) writeonly buffer ReleaseTime { float release_time[]; }; // by id, s
 layout(set = 0, binding = 8, scalar) buffer Changes { PoolChanges changes; };
+layout(set = 0, binding = 9, scalar) buffer Before { float before[]; }; // enthalpy at the last look, by id
 
 #include "include/freed.glsl"
 
@@ -28,10 +30,13 @@ void main()
         return;
     }
     uint material = particle_material(attributes[i]);
-    if (melting.melts[material] != 0u && enthalpy[id[i]].x >= heat.of[material].latent_heat) {
+    float now = enthalpy[id[i]].x;
+    float gain = max(now - before[id[i]], 0.0);
+    before[id[i]] = now;
+    if (melting.melts[material] != 0u && now + push.ahead * gain >= heat.of[material].latent_heat) {
         attributes[i] = freed_as(attributes[i], STATE_FLUID, CAUSE_MELT);
         velocity[i].w = abs(velocity[i].w);
-        release_time[id[i]] = time;
+        release_time[id[i]] = push.time;
         count_freed(i);
     }
 }

@@ -107,6 +107,7 @@ TEST_F(MeltingTest, LooksAreTheTwins)
     const reference::Settings twin_settings{.kernel = its.options.kernel, .params = simulation.params()};
     const shared::VisibilityParams map_params =
         sim::visibility_params({.direction = its.melting->params.sun_direction}, simulation.params());
+    std::vector<double> enthalpy_at_last_look = its.melting->enthalpy;
     double looked_at = 0.0;
     double largest_change = 0.0;
     std::size_t melted = 0;
@@ -125,10 +126,12 @@ TEST_F(MeltingTest, LooksAreTheTwins)
         reference::conduct(twin_settings, its.melting->heat, twin,
                            reference::find_neighbors(simulation.params(), twin.position), enthalpy, seconds);
         frozen += reference::freeze(twin_settings, twin, enthalpy);
-        melted += reference::melt(its.melting->heat, its.melting->params, twin, enthalpy);
 
         ASSERT_EQ(simulation.steps_until_erosion(), 0u);
         simulation.advance(1);
+        melted += reference::melt(
+            its.melting->heat, its.melting->params, twin, enthalpy, enthalpy_at_last_look,
+            seconds > 0.0 ? 0.5 * seconds_between_looks(simulation) * its.melting->time_scale / seconds : 0.0);
         const ParticleSet after = simulation.download();
         const std::vector<double> found = simulation.enthalpy();
         for (std::size_t i = 0; i < after.size(); ++i) {

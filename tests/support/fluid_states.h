@@ -259,6 +259,12 @@ inline ParticleSet flow_across_borders(std::uint64_t seed)
     return set;
 }
 
+/// s of motion from the look at solids to the next, in steps of one length, when the first of these has just been done.
+inline double seconds_between_looks(const sim::Simulation& simulation)
+{
+    return (1 + simulation.steps_until_erosion()) * static_cast<double>(simulation.params().dt);
+}
+
 struct NamedState {
     std::string name;
     std::function<ParticleSet()> make;
