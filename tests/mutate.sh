@@ -1449,9 +1449,24 @@ mutation "heat: what a float cannot hold is lost" \
     conformance_tests 'HeatTest.NothingIsTooLittleToCount'
 mutation "heat: it leaves through walls and periodic borders" \
     shaders/sim/conduction.comp \
-    'any_changes ? tile.images : 0u' \
-    'any_changes ? 1u : 0u' \
+    'may_get_heat(tile, own) ? tile.images : 0u' \
+    'may_get_heat(tile, own) ? 1u : 0u' \
     conformance_tests 'HeatTest.ConductsAsItsTwin'
+mutation "heat: who looks for it misses its cell" \
+    shaders/sim/conduction.comp \
+    'ivec3 reach = ivec3(CELLS_PER_SUPPORT_X, 1, 1);' \
+    'ivec3 reach = ivec3(1);' \
+    conformance_tests 'HeatTest.AFewWarmOnesAmidMeltingIceConductAsTheirTwin'
+mutation "heat: the first cell of a word is forgotten" \
+    shaders/sim/conduction.comp \
+    '& (~0u << from)' \
+    '& (~1u << from)' \
+    conformance_tests 'HeatTest.AFewWarmOnesAmidMeltingIceConductAsTheirTwin'
+mutation "heat: who is colder than ice is not seen" \
+    shaders/sim/temperature.comp \
+    't != common_temperature' \
+    't > common_temperature' \
+    conformance_tests 'HeatTest.AFewWarmOnesAmidMeltingIceConductAsTheirTwin'
 mutation "heat: pairs that have met need an ever shorter step" \
     shaders/sim/conduction.comp \
     'max(dot(offset, offset), nearest * nearest)' \
@@ -1545,9 +1560,9 @@ mutation "scour: the rate is linear in the excess" \
     conformance_tests 'HydraulicTest.TheRateIsAPowerOfTheExcess'
 mutation "scour: looks come half as often" \
     engine/sim/hydraulic.cpp \
-    'largest_loss = 0.2' \
-    'largest_loss = 0.4' \
-    conformance_tests 'HydraulicTest.NoLookTakesMoreThanAFifthOfAParticle'
+    'largest_loss = 0.5' \
+    'largest_loss = 1.0' \
+    conformance_tests 'HydraulicTest.NoLookTakesMoreThanHalfOfAParticle'
 mutation "detach: damage goes on beyond a particle" \
     shaders/sim/detach.comp \
     '        damage[slot] = vec2(1.0, 0.0);

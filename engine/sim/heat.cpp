@@ -65,6 +65,13 @@ double largest_diffusivity(const shared::SphParams& params, const shared::HeatPa
     return largest;
 }
 
+/// degrees C: of a material that conducts, its melting point.
+float common_temperature(const shared::HeatParams& heat)
+{
+    const auto* const found = std::find_if(std::begin(heat.of), std::end(heat.of), conducts);
+    return found != std::end(heat.of) ? found->melting_point : 0.0f;
+}
+
 std::vector<glm::vec2> two_floats(std::span<const double> values)
 {
     std::vector<glm::vec2> parts(values.size());
@@ -86,7 +93,11 @@ Heat::Heat(const gpu::Context& context, const FluidOptions& options, const share
                                                             static_cast<double>(params.spacing), options.dimensions))),
       count_(enthalpy.size()), params_(gpu::make_buffer<shared::HeatParams>(context, 1, "heat params")),
       enthalpy_(gpu::make_buffer<glm::vec2>(context, count_, "enthalpy")),
-      thermal_(gpu::make_texel_buffer(context, count_, "thermal"))
+      thermal_(gpu::make_texel_buffer(context, count_, "thermal")),
+      warm_cells_(gpu::make_buffer<std::uint32_t>(
+          context, std::size_t{shared::warm_words(params.grid_size.x)} * params.grid_size.y * params.grid_size.z,
+          "warm cells")),
+      common_temperature_(common_temperature(heat))
 {
     if (attributes.size() != count_) {
         throw std::logic_error("Heat: enthalpy and attributes are of each particle");
@@ -112,12 +123,15 @@ void Heat::record_conduction(gpu::Commands& commands, const FluidKernels& kernel
     const std::uint32_t steps = substeps(seconds);
     const gpu::Scope scope(commands, "conduction");
     for (std::uint32_t step = 0; step < steps; ++step) {
-        commands.dispatch(temperature_, particles.count, gpu::NoPush{},
+        commands.fill(warm_cells_, 0);
+        commands.dispatch(temperature_, particles.count, common_temperature_,
                           {read(params), read(params_), read(particles.id), read(particles.attributes),
-                           read(particles.position), read(particles.velocity), read(enthalpy_), write(thermal_)});
+                           read(particles.position), read(particles.velocity), read(enthalpy_), write(thermal_),
+                           gpu::read_write(warm_cells_)});
         commands.dispatch(conduction_, kernels.tiles(particles.count), static_cast<float>(seconds / steps),
                           {read(params), read(grid.cell_start), read(particles.position), read(particles.position),
-                           read(thermal_), read(thermal_), read(particles.id), read_write(enthalpy_)});
+                           read(thermal_), read(thermal_), read(particles.id), read_write(enthalpy_),
+                           read(warm_cells_)});
     }
 }
 

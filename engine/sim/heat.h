@@ -46,7 +46,10 @@ public:
     [[nodiscard]] std::vector<double> download_enthalpy() const;
 
     /// Device memory of its own.
-    [[nodiscard]] std::uint64_t device_bytes() const { return params_.size() + enthalpy_.size() + thermal_.size(); }
+    [[nodiscard]] std::uint64_t device_bytes() const
+    {
+        return params_.size() + enthalpy_.size() + thermal_.size() + warm_cells_.size();
+    }
 
 private:
     const gpu::Context* context_;
@@ -56,7 +59,9 @@ private:
     std::size_t count_; ///< particles
     gpu::Buffer params_;
     gpu::Buffer enthalpy_;
-    gpu::Buffer thermal_; ///< vec4 of shared/heat.h, in the particles' order
+    gpu::Buffer thermal_;      ///< vec4 of shared/heat.h, in the particles' order
+    gpu::Buffer warm_cells_;   ///< uint: a bit for each cell, warm_words a row
+    float common_temperature_; ///< degrees C, of most particles
 };
 
 } // namespace meltpoint::sim

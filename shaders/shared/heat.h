@@ -40,6 +40,11 @@ struct HeatParams {
 // What conduction.comp reads of a particle, a vec4: x = T in degrees C, y = k in W/(m K), 0 where there is no heat, z = V in m^3,
 // w = 1 / rho0 in m^3/kg, 0 where the enthalpy stays.
 
+// Between those who are at the same temperature nothing flows. Most of a melting solid is at its melting point, so that is the
+// common temperature, and nobody looks for heat where no cell within reach holds another one. 32-bit words of a row of cells, with
+// a bit for each cell:
+SHARED_FUNCTION uint warm_words(uint cells) { return (cells + 31u) / 32u; }
+
 // From 0, solid, to 1, fluid. enthalpy: J/kg.
 SHARED_FUNCTION float melted_fraction(HeatMaterial material, float enthalpy)
 {

@@ -19,8 +19,39 @@ layout(set = 0, binding = 4, scalar) readonly buffer Thermal { vec4 thermal[]; }
 layout(set = 0, binding = 5) uniform textureBuffer thermal_texels;
 layout(set = 0, binding = 6, scalar) readonly buffer Id { uint id[]; };
 layout(set = 0, binding = 7, scalar) buffer Enthalpy { vec2 enthalpy[]; }; // by id, two-floats
+layout(set = 0, binding = 8, scalar) readonly buffer WarmCells { uint warm_cells[]; };
 
 #include "include/image_walk.glsl"
+#include "include/warm_cells.glsl"
+
+// Whether heat may flow to one of the tile's particles. Their neighbors in mirrors lie as near themselves; across periodic borders,
+// and of those who walk one by one, nobody knows.
+bool may_get_heat(Tile tile, vec4 own[TILE])
+{
+    bool unknown = tile.is_wide || params.periodic_mask != 0u;
+    ivec3 low = ivec3(params.grid_size);
+    ivec3 high = ivec3(-1);
+    [[unroll]] for (uint k = 0u; k < TILE; ++k) {
+        ivec3 cell = cell_within(own[k].xyz);
+        low = min(low, cell);
+        high = max(high, cell);
+    }
+    ivec3 reach = ivec3(CELLS_PER_SUPPORT_X, 1, 1);
+    low = max(low - reach, ivec3(0));
+    high = unknown ? low - 1 : min(high + reach, ivec3(params.grid_size) - 1);
+    uint found = 0u;
+    for (int z = low.z; z <= high.z; ++z) {
+        for (int y = low.y; y <= high.y; ++y) {
+            uint row = warm_row(ivec2(y, z));
+            for (int word = low.x / 32; word <= high.x / 32; ++word) {
+                uint from = uint(max(low.x - 32 * word, 0));
+                uint to = uint(min(high.x - 32 * word, 31));
+                found |= warm_cells[row + uint(word)] & (~0u << from) & (~0u >> (31u - to));
+            }
+        }
+    }
+    return unknown || found != 0u;
+}
 
 void main()
 {
@@ -37,7 +68,7 @@ void main()
         sum[k] = 0.0;
         any_changes = any_changes || its[k].w > 0.0;
     }
-    tile.images = any_changes ? tile.images : 0u;
+    tile.images = any_changes && may_get_heat(tile, own) ? tile.images : 0u;
 
     KernelSize size = kernel_size(params.support_radius);
     float nearest = NEAREST_CONDUCTION * params.spacing;

@@ -1,11 +1,13 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
-// What conduction reads of each particle (shared/heat.h): found once, not for each pair. Twin: engine/reference/heat.cpp.
+// What conduction reads of each particle (shared/heat.h): found once, not for each pair. And which cells hold one that is not at
+// the common temperature. Twin: engine/reference/heat.cpp.
 #include "include/invocation.glsl"
 #include "shared/heat.h"
 #include "shared/particle_state.h"
 #include "shared/sph_params.h"
 
+layout(push_constant, scalar) uniform Push { float common_temperature; }; // degrees C
 layout(set = 0, binding = 0, scalar) uniform Params { SphParams params; };
 layout(set = 0, binding = 1, scalar) uniform Heat { HeatParams heat; };
 layout(set = 0, binding = 2, scalar) readonly buffer Id { uint id[]; };
@@ -14,6 +16,9 @@ layout(set = 0, binding = 4, scalar) readonly buffer Position { vec4 position[];
 layout(set = 0, binding = 5, scalar) readonly buffer Velocity { vec4 velocity[]; }; // w: mass, negative of boundary particles
 layout(set = 0, binding = 6, scalar) readonly buffer Enthalpy { vec2 enthalpy[]; }; // by id, two-floats
 layout(set = 0, binding = 7, scalar) writeonly buffer Thermal { vec4 thermal[]; };
+layout(set = 0, binding = 8, scalar) buffer WarmCells { uint warm_cells[]; };
+
+#include "include/warm_cells.glsl"
 
 void main()
 {
@@ -30,5 +35,10 @@ void main()
     float k = has_heat ? conductivity(its, h.x) : 0.0;
     float volume = holds ? position[i].w * params.lattice_volume : abs(velocity[i].w) / params.rest_density[material];
     bool changes = !holds && k > 0.0;
-    thermal[i] = k > 0.0 ? vec4(temperature(its, h), k, volume, changes ? 1.0 / params.rest_density[material] : 0.0) : vec4(0.0);
+    float t = temperature(its, h);
+    thermal[i] = k > 0.0 ? vec4(t, k, volume, changes ? 1.0 / params.rest_density[material] : 0.0) : vec4(0.0);
+    if (k > 0.0 && t != common_temperature) {
+        ivec3 cell = cell_within(position[i].xyz);
+        atomicOr(warm_cells[warm_row(cell.yz) + uint(cell.x) / 32u], 1u << (uint(cell.x) % 32u));
+    }
 }
