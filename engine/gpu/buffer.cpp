@@ -69,10 +69,12 @@ Buffer::Buffer(const Context& context, VkDeviceSize bytes, MemoryUse use, const 
             view.buffer = buffer_;
             view.format = texels;
             view.range = VK_WHOLE_SIZE;
-            check(context.vk().vkCreateBufferView(context.device(), &view, nullptr, &texels_), "creating a texel buffer");
+            check(context.vk().vkCreateBufferView(context.device(), &view, nullptr, &texels_),
+                  "creating a texel buffer");
         }
         if (use != MemoryUse::Device) {
-            check(context.vk().vkMapMemory(context.device(), memory_, 0, VK_WHOLE_SIZE, 0, &mapped_), "mapping a buffer");
+            check(context.vk().vkMapMemory(context.device(), memory_, 0, VK_WHOLE_SIZE, 0, &mapped_),
+                  "mapping a buffer");
         }
     } catch (...) {
         release();

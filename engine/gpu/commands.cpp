@@ -29,6 +29,8 @@ bool allows(ShaderAccess shader, Access declared)
     return false;
 }
 
+} // namespace
+
 VkAccessFlags2 read_access(VkDescriptorType type)
 {
     switch (type) {
@@ -40,8 +42,6 @@ VkAccessFlags2 read_access(VkDescriptorType type)
         return VK_ACCESS_2_SHADER_STORAGE_READ_BIT;
     }
 }
-
-} // namespace
 
 std::array<std::uint32_t, 3> workgroups(const Context& context, const Kernel& kernel, std::uint32_t invocations)
 {

@@ -34,6 +34,9 @@ struct Binding {
     return {&buffer, Access::ReadWrite};
 }
 
+/// How shaders read what is bound as such.
+[[nodiscard]] VkAccessFlags2 read_access(VkDescriptorType type);
+
 /// For dispatches of shaders without push constants.
 struct NoPush {};
 

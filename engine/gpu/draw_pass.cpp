@@ -22,7 +22,11 @@ void check_interface(const Draw& draw)
     }
     for (std::size_t i = 0; i < draw.bindings.size(); ++i) {
         const bool wants_image = shader.bindings[i].type == VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER;
-        if (wants_image != (draw.bindings[i].image != nullptr) || shader.bindings[i].access != ShaderAccess::Read) {
+        const bool lacks_texels = shader.bindings[i].type == VK_DESCRIPTOR_TYPE_UNIFORM_TEXEL_BUFFER &&
+                                  draw.bindings[i].buffer != nullptr &&
+                                  draw.bindings[i].buffer->texels() == VK_NULL_HANDLE;
+        if (wants_image != (draw.bindings[i].image != nullptr) || lacks_texels ||
+            shader.bindings[i].access != ShaderAccess::Read) {
             throw std::logic_error(fmt::format("pipeline {}: binding {} is not what the shader reads",
                                                draw.pipeline->name(), shader.bindings[i].binding));
         }
@@ -31,13 +35,18 @@ void check_interface(const Draw& draw)
 
 void declare_uses(Commands& commands, const Draw& draw)
 {
-    for (const DrawBinding& binding : draw.bindings) {
+    if (draw.arguments != nullptr) {
+        commands.use(*draw.arguments, VK_PIPELINE_STAGE_2_DRAW_INDIRECT_BIT, VK_ACCESS_2_INDIRECT_COMMAND_READ_BIT,
+                     false);
+    }
+    for (std::size_t i = 0; i < draw.bindings.size(); ++i) {
+        const DrawBinding& binding = draw.bindings[i];
         if (binding.image != nullptr) {
             use_image(commands, *binding.image, ImageUse::Sampled);
         } else {
             commands.use(*binding.buffer,
                          VK_PIPELINE_STAGE_2_VERTEX_SHADER_BIT | VK_PIPELINE_STAGE_2_FRAGMENT_SHADER_BIT,
-                         VK_ACCESS_2_SHADER_STORAGE_READ_BIT, false);
+                         read_access(draw.pipeline->shader().bindings[i].type), false);
         }
     }
 }
@@ -86,6 +95,7 @@ void record_draw(Commands& commands, const Draw& draw)
     const ShaderInterface& shader = draw.pipeline->shader();
     std::vector<VkDescriptorBufferInfo> buffers(draw.bindings.size());
     std::vector<VkDescriptorImageInfo> images(draw.bindings.size());
+    std::vector<VkBufferView> texels(draw.bindings.size());
     std::vector<VkWriteDescriptorSet> writes(draw.bindings.size());
     for (std::size_t i = 0; i < draw.bindings.size(); ++i) {
         writes[i] = {VK_STRUCTURE_TYPE_WRITE_DESCRIPTOR_SET};
@@ -97,7 +107,9 @@ void record_draw(Commands& commands, const Draw& draw)
             writes[i].pImageInfo = &images[i];
         } else {
             buffers[i] = {draw.bindings[i].buffer->handle(), 0, VK_WHOLE_SIZE};
+            texels[i] = draw.bindings[i].buffer->texels();
             writes[i].pBufferInfo = &buffers[i];
+            writes[i].pTexelBufferView = &texels[i];
         }
     }
     const VolkDeviceTable& vk = commands.context().vk();
@@ -109,7 +121,11 @@ void record_draw(Commands& commands, const Draw& draw)
                               VK_SHADER_STAGE_VERTEX_BIT | VK_SHADER_STAGE_FRAGMENT_BIT, 0,
                               static_cast<std::uint32_t>(draw.push.size()), draw.push.data());
     }
-    vk.vkCmdDraw(commands.handle(), draw.vertices, 1, 0, 0);
+    if (draw.arguments != nullptr) {
+        vk.vkCmdDrawIndirect(commands.handle(), draw.arguments->handle(), 0, 1, 0);
+    } else {
+        vk.vkCmdDraw(commands.handle(), draw.vertices, 1, 0, 0);
+    }
 }
 
 } // namespace
@@ -131,7 +147,7 @@ void record_draw_pass(Commands& commands, const Targets& targets, std::span<cons
 
     begin_rendering(commands, targets);
     for (const Draw& draw : draws) {
-        if (draw.vertices > 0) {
+        if (draw.vertices > 0 || draw.arguments != nullptr) {
             record_draw(commands, draw);
         }
     }

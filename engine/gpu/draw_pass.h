@@ -32,7 +32,7 @@ struct Targets {
 
 /// A buffer or an image that the shaders of a draw read.
 struct DrawBinding {
-    /// A storage buffer.
+    /// A storage, uniform or texel buffer, as the shader has it.
     DrawBinding(const Buffer& read) : buffer(&read) {} // NOLINT(google-explicit-constructor): lists read well
     /// An image, sampled.
     DrawBinding(const Image& read) : image(&read) {} // NOLINT(google-explicit-constructor)
@@ -47,6 +47,7 @@ struct Draw {
     std::uint32_t vertices = 0;
     std::vector<std::byte> push; ///< push constants, as push_bytes makes them
     std::vector<DrawBinding> bindings;
+    const Buffer* arguments = nullptr; ///< a VkDrawIndirectCommand that says how many vertices, instead of `vertices`
 };
 
 template <class Push>

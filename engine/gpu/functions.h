@@ -8,9 +8,9 @@ struct VolkDeviceTable; // volk.h
 
 namespace meltpoint::gpu {
 
-/// Vulkan's functions: volk opens the loader and fills the table of a device; the few functions that come before a device
-/// are kept here. The library defines no vk or volk symbol (engine/gpu/volk.c): a host program may link the Vulkan loader,
-/// use volk, or bring a loader of its own beside it.
+/// Vulkan's functions: volk opens the loader and fills the table of a device; the few functions that come before a
+/// device are kept here. The library defines no vk or volk symbol (engine/gpu/volk.c): a host program may link the
+/// Vulkan loader, use volk, or bring a loader of its own beside it.
 
 #define MELTPOINT_LOADER_FUNCTIONS(F)                                                                                  \
     F(vkCreateInstance)                                                                                                \
@@ -64,8 +64,9 @@ struct InstanceFunctions {
 [[nodiscard]] InstanceFunctions load_instance_functions(PFN_vkGetInstanceProcAddr get_instance_proc_addr,
                                                         VkInstance instance);
 
-/// Calls go straight to the device's driver. Whoever makes one includes <volk.h>, which no public header does: it cannot
-/// stand beside Vulkan's prototypes, which a host may use. Thread safe.
-[[nodiscard]] std::unique_ptr<const VolkDeviceTable> load_device_functions(const InstanceFunctions& vk, VkDevice device);
+/// Calls go straight to the device's driver. Whoever makes one includes <volk.h>, which no public header does: it
+/// cannot stand beside Vulkan's prototypes, which a host may use. Thread safe.
+[[nodiscard]] std::unique_ptr<const VolkDeviceTable> load_device_functions(const InstanceFunctions& vk,
+                                                                           VkDevice device);
 
 } // namespace meltpoint::gpu

@@ -81,12 +81,14 @@ GraphicsPipeline::GraphicsPipeline(const Context& context, std::string name, con
 
 void GraphicsPipeline::create(const GraphicsPipelineInfo& info, std::span<const VkShaderModule> modules)
 {
+    const Specialization specialization(info.constants);
     std::array<VkPipelineShaderStageCreateInfo, 2> stages{};
     for (std::size_t i = 0; i < modules.size(); ++i) {
         stages[i].sType = VK_STRUCTURE_TYPE_PIPELINE_SHADER_STAGE_CREATE_INFO;
         stages[i].stage = i == 0 ? VK_SHADER_STAGE_VERTEX_BIT : VK_SHADER_STAGE_FRAGMENT_BIT;
         stages[i].module = modules[i];
         stages[i].pName = "main";
+        stages[i].pSpecializationInfo = &specialization.info;
     }
     const VkPipelineVertexInputStateCreateInfo no_input{VK_STRUCTURE_TYPE_PIPELINE_VERTEX_INPUT_STATE_CREATE_INFO};
 
@@ -140,8 +142,9 @@ void GraphicsPipeline::create(const GraphicsPipelineInfo& info, std::span<const 
     pipeline.pColorBlendState = &blend;
     pipeline.pDynamicState = &dynamic;
     pipeline.layout = layout_;
-    check(context_->vk().vkCreateGraphicsPipelines(context_->device(), VK_NULL_HANDLE, 1, &pipeline, nullptr, &pipeline_),
-          "creating the graphics pipeline of " + name_);
+    check(
+        context_->vk().vkCreateGraphicsPipelines(context_->device(), VK_NULL_HANDLE, 1, &pipeline, nullptr, &pipeline_),
+        "creating the graphics pipeline of " + name_);
     context_->set_name(VK_OBJECT_TYPE_PIPELINE, reinterpret_cast<std::uint64_t>(pipeline_), name_); // NOLINT
 }
 

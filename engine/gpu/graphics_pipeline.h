@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "gpu/context.h"
+#include "gpu/kernel.h"
 #include "gpu/reflection.h"
 
 namespace meltpoint::gpu {
@@ -17,6 +18,7 @@ struct GraphicsPipelineInfo {
     std::span<const std::uint32_t> fragment; ///< SPIR-V; empty where only the depth of the quads counts
     std::vector<VkFormat> color_formats;     ///< of the color targets, in order
     VkFormat depth_format = VK_FORMAT_UNDEFINED;
+    std::vector<SpecConstant> constants; ///< of both shaders
 };
 
 /// A vertex and a fragment shader ready to draw: pipeline, layout with push descriptors, and the union of the two

@@ -172,7 +172,7 @@ void copy_to_buffer(Commands& commands, const Image& image, const Buffer& target
     region.imageSubresource = {image.aspect(), 0, 0, 1};
     region.imageExtent = {image.extent().width, image.extent().height, 1};
     commands.context().vk().vkCmdCopyImageToBuffer(commands.handle(), image.handle(), layout_of(ImageUse::CopySource),
-                                                 target.handle(), 1, &region);
+                                                   target.handle(), 1, &region);
 }
 
 } // namespace meltpoint::gpu

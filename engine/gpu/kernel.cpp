@@ -47,6 +47,16 @@ VkShaderModule make_shader_module(const Context& context, std::span<const std::u
     return module;
 }
 
+Specialization::Specialization(std::span<const SpecConstant> constants)
+{
+    for (std::size_t i = 0; i < constants.size(); ++i) {
+        entries.push_back({constants[i].id,
+                           static_cast<std::uint32_t>(i * sizeof(SpecConstant) + offsetof(SpecConstant, value)),
+                           sizeof(std::uint32_t)});
+    }
+    info = {static_cast<std::uint32_t>(entries.size()), entries.data(), constants.size_bytes(), constants.data()};
+}
+
 Kernel::Kernel(const Context& context, const std::string& name, std::span<const std::uint32_t> spirv,
                std::span<const SpecConstant> constants)
     : context_(&context), name_(name), shader_(reflect(spirv))
@@ -56,21 +66,13 @@ Kernel::Kernel(const Context& context, const std::string& name, std::span<const 
         set_layout_ = make_push_set_layout(context, shader_.bindings, VK_SHADER_STAGE_COMPUTE_BIT);
         layout_ = make_pipeline_layout(context, set_layout_, shader_.push_constant_bytes, VK_SHADER_STAGE_COMPUTE_BIT);
         module = make_shader_module(context, spirv);
-
-        std::vector<VkSpecializationMapEntry> entries;
-        for (std::size_t i = 0; i < constants.size(); ++i) {
-            entries.push_back({constants[i].id,
-                               static_cast<std::uint32_t>(i * sizeof(SpecConstant) + offsetof(SpecConstant, value)),
-                               sizeof(std::uint32_t)});
-        }
-        const VkSpecializationInfo specialization{static_cast<std::uint32_t>(entries.size()), entries.data(),
-                                                  constants.size_bytes(), constants.data()};
+        const Specialization specialization(constants);
         VkComputePipelineCreateInfo info{VK_STRUCTURE_TYPE_COMPUTE_PIPELINE_CREATE_INFO};
         info.stage.sType = VK_STRUCTURE_TYPE_PIPELINE_SHADER_STAGE_CREATE_INFO;
         info.stage.stage = VK_SHADER_STAGE_COMPUTE_BIT;
         info.stage.module = module;
         info.stage.pName = "main";
-        info.stage.pSpecializationInfo = &specialization;
+        info.stage.pSpecializationInfo = &specialization.info;
         info.layout = layout_;
         check(context.vk().vkCreateComputePipelines(context.device(), VK_NULL_HANDLE, 1, &info, nullptr, &pipeline_),
               "creating the compute pipeline of " + name);

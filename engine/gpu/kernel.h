@@ -15,6 +15,14 @@ struct SpecConstant {
     std::uint32_t value = 0;
 };
 
+/// As Vulkan takes them: valid as long as it and the constants are where they are.
+struct Specialization {
+    explicit Specialization(std::span<const SpecConstant> constants);
+
+    std::vector<VkSpecializationMapEntry> entries;
+    VkSpecializationInfo info{};
+};
+
 /// A compute shader ready to be dispatched: pipeline, layout with push descriptors, and its reflected interface.
 /// Move-only.
 class Kernel {

@@ -14,7 +14,7 @@ namespace {
 gpu::Buffer to_device(const gpu::Context& context, std::span<const glm::vec4> data, std::size_t count,
                       const std::string& name)
 {
-    gpu::Buffer buffer = gpu::make_buffer<glm::vec4>(context, count, name);
+    gpu::Buffer buffer = gpu::make_texel_buffer(context, count, name);
     gpu::Commands commands(context);
     commands.begin();
     commands.fill(buffer, 0);
@@ -43,7 +43,8 @@ std::uint64_t DiscBuffers::max_discs(const gpu::Context& context)
     constexpr std::uint64_t bytes_per_disc = 4 * sizeof(glm::vec4);
     const std::uint64_t by_binding = context.limits().maxStorageBufferRange / sizeof(glm::vec4);
     const std::uint64_t by_memory = context.info().memory_bytes / bytes_per_disc;
-    return std::min({by_binding, by_memory, std::uint64_t{max_splats}});
+    const std::uint64_t by_texels = context.limits().maxTexelBufferElements;
+    return std::min({by_binding, by_texels, by_memory, std::uint64_t{max_splats}});
 }
 
 } // namespace meltpoint::render

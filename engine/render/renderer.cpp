@@ -12,6 +12,7 @@
 #include "render/frame_params.h"
 #include "spirv/render/disc.frag.h"
 #include "spirv/render/disc.vert.h"
+#include "spirv/render/floor.frag.h"
 #include "spirv/render/line.frag.h"
 #include "spirv/render/line.vert.h"
 #include "spirv/render/resolve.frag.h"
@@ -25,8 +26,9 @@ namespace {
 
 constexpr std::uint32_t max_samples = 4;
 constexpr std::uint32_t shadow_size = 512; // texels
-constexpr std::uint32_t vertices_per_quad = 6;
 constexpr std::uint32_t box_edges = 12;
+constexpr std::size_t light_view = 0;
+constexpr std::size_t camera_view = 1;
 constexpr VkFormat visibility_format = VK_FORMAT_R32_UINT;
 constexpr VkFormat depth_format = VK_FORMAT_D32_SFLOAT;
 constexpr VkFormat picture_format = VK_FORMAT_R8G8B8A8_SRGB;
@@ -66,14 +68,20 @@ Renderer::Renderer(const gpu::Context& context, std::uint32_t width, std::uint32
              VK_IMAGE_USAGE_DEPTH_STENCIL_ATTACHMENT_BIT | VK_IMAGE_USAGE_TRANSFER_SRC_BIT, "depth"),
       picture_(context, width, height, picture_format,
                VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT | VK_IMAGE_USAGE_TRANSFER_SRC_BIT, "picture"),
+      only_floor_(context, width, height, depth_format, VK_IMAGE_USAGE_DEPTH_STENCIL_ATTACHMENT_BIT, "only floor"),
       params_(gpu::make_buffer<shared::RenderParams>(context, 1, "render parameters")),
       readback_(context, VkDeviceSize{4} * width * height, gpu::MemoryUse::Readback, "picture read-back"),
+      spheres_(context), quad_kernels_(context), sphere_quads_{SplatQuads(context), SplatQuads(context)},
+      disc_quads_{SplatQuads(context), SplatQuads(context)},
       sphere_shadow_(context, "sphere shadow", {render_sphere_vert, render_sphere_frag, {}, depth_format}),
       disc_shadow_(context, "disc shadow", {render_disc_vert, render_disc_frag, {}, depth_format}),
       sphere_(context, "sphere", {render_sphere_vert, render_sphere_frag, {visibility_format}, depth_format}),
       disc_(context, "disc", {render_disc_vert, render_disc_frag, {visibility_format}, depth_format}),
       line_(context, "line", {render_line_vert, render_line_frag, {visibility_format}, depth_format}),
-      resolve_(context, "resolve", {render_screen_vert, render_resolve_frag, {picture_format}}), transfers_(context)
+      floor_(context, "floor", {render_screen_vert, render_floor_frag, {picture_format}, depth_format, {{0, samples}}}),
+      resolve_(context, "resolve",
+               {render_screen_vert, render_resolve_frag, {picture_format}, depth_format, {{0, samples}}}),
+      transfers_(context)
 {
 }
 
@@ -100,23 +108,30 @@ void Renderer::draw(gpu::Commands& commands, const Frame& frame)
     const gpu::Scope scope(commands, "render");
     write_params(commands, params);
     last_camera_ = params.camera;
+    if (spheres > 0) {
+        spheres_.record(commands, params_, *frame.particles);
+    }
 
-    const auto splats = [&](const gpu::GraphicsPipeline& sphere, const gpu::GraphicsPipeline& disc,
-                            const shared::SplatCamera& camera) {
-        const shared::SplatPush push{camera, params.splat_radius, params.sized};
+    const auto splats = [&](const gpu::GraphicsPipeline& sphere, const gpu::GraphicsPipeline& disc, std::size_t view) {
+        const shared::SplatCamera& camera = view == light_view ? params.light : params.camera;
+        const shared::SplatPush push{camera};
         std::vector<gpu::Draw> draws;
         if (spheres > 0) {
-            draws.push_back({&sphere,
-                             spheres * vertices_per_quad,
-                             gpu::push_bytes(push),
-                             {frame.particles->position, frame.particles->attributes, frame.particles->density,
-                              frame.particles->size != nullptr ? *frame.particles->size : params_}});
+            SplatQuads& quads = sphere_quads_[view];
+            quads.record_spheres(commands, quad_kernels_, camera, spheres_.sphere(), spheres);
+            draws.push_back({.pipeline = &sphere,
+                             .push = gpu::push_bytes(push),
+                             .bindings = {spheres_.sphere(), quads.quads(), quads.list()},
+                             .arguments = &quads.arguments()});
         }
         if (discs > 0) {
-            draws.push_back({&disc,
-                             discs * vertices_per_quad,
-                             gpu::push_bytes(push),
-                             {frame.discs->position, frame.discs->normal, frame.discs->bend, frame.discs->color}});
+            const DiscView& its = *frame.discs;
+            SplatQuads& quads = disc_quads_[view];
+            quads.record_discs(commands, quad_kernels_, camera, its.position, its.normal, discs);
+            draws.push_back({.pipeline = &disc,
+                             .push = gpu::push_bytes(push),
+                             .bindings = {its.position, its.normal, its.bend, its.color, quads.quads(), quads.list()},
+                             .arguments = &quads.arguments()});
         }
         return draws;
     };
@@ -124,33 +139,29 @@ void Renderer::draw(gpu::Commands& commands, const Frame& frame)
     if (params.shadows != 0) {
         const gpu::Scope shadow(commands, "shadow map");
         const gpu::Targets targets{.colors = {}, .depth = gpu::DepthTarget{&shadow_map_}};
-        gpu::record_draw_pass(commands, targets, splats(sphere_shadow_, disc_shadow_, params.light));
+        gpu::record_draw_pass(commands, targets, splats(sphere_shadow_, disc_shadow_, light_view));
     }
     {
         const gpu::Scope visible(commands, "visible surface");
-        std::vector<gpu::Draw> draws = splats(sphere_, disc_, params.camera);
+        std::vector<gpu::Draw> draws = splats(sphere_, disc_, camera_view);
         if (frame.settings.box && !frame.settings.bounds.empty()) {
-            draws.push_back({&line_, box_edges * vertices_per_quad, {}, {params_}});
+            draws.push_back({&line_, box_edges * shared::VERTICES_PER_QUAD, {}, {params_}});
         }
         const gpu::Targets targets{.colors = {{&visibility_}}, .depth = gpu::DepthTarget{&depth_}};
         gpu::record_draw_pass(commands, targets, draws);
     }
     {
         const gpu::Scope resolve(commands, "resolve");
-        const gpu::Buffer& none = params_; // bound where there is nothing to look up, never indexed
-        const gpu::Draw draw{
-            &resolve_,
-            3,
-            {},
-            {params_, visibility_, shadow_map_, frame.particles ? frame.particles->position : none,
-             frame.particles ? frame.particles->velocity : none, frame.particles ? frame.particles->density : none,
-             frame.particles ? frame.particles->pressure : none, frame.particles ? frame.particles->attributes : none,
-             frame.discs ? frame.discs->position : none, frame.discs ? frame.discs->normal : none,
-             frame.discs ? frame.discs->color : none, knows_when_freed ? *frame.particles->id : none,
-             knows_when_freed ? *frame.particles->freed_at : none, params.sized != 0 ? *frame.particles->size : none,
-             frame.discs ? frame.discs->bend : none}};
-        const gpu::Targets targets{.colors = {{&picture_}}, .depth = std::nullopt};
-        gpu::record_draw_pass(commands, targets, std::span(&draw, 1));
+        const gpu::Buffer& none = spheres_.sphere(); // bound where there is nothing to look up, never indexed
+        const gpu::Draw floor{&floor_, 3, {}, {params_, visibility_, shadow_map_}};
+        const gpu::Draw surfaces{&resolve_,
+                                 3,
+                                 {},
+                                 {params_, visibility_, shadow_map_, spheres_.sphere(), spheres_.look(),
+                                  frame.discs ? frame.discs->position : none, frame.discs ? frame.discs->normal : none,
+                                  frame.discs ? frame.discs->color : none, frame.discs ? frame.discs->bend : none}};
+        const gpu::Targets targets{.colors = {{&picture_}}, .depth = gpu::DepthTarget{&only_floor_}};
+        gpu::record_draw_pass(commands, targets, std::array{floor, surfaces});
     }
 }
 

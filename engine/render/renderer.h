@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <vector>
 
@@ -7,11 +8,14 @@
 #include "gpu/commands.h"
 #include "gpu/draw_pass.h"
 #include "render/frame.h"
+#include "render/spheres.h"
+#include "render/splat_quads.h"
 
 namespace meltpoint::render {
 
 /// Draws frames of one size. Three passes: the light's depth map, the visible surface of each sample (an index and its
-/// depth), and the resolve that colors and lights each sample once. All memory is allocated by the constructor.
+/// depth), and the resolve that colors and lights each surface of a pixel once. But for spheres and lists of splats,
+/// all memory is allocated by the constructor.
 class Renderer {
 public:
     /// A picture of width x height pixels, each averaged over samples x samples (1 to 4). Throws Input for other sample
@@ -19,7 +23,8 @@ public:
     Renderer(const gpu::Context& context, std::uint32_t width, std::uint32_t height, std::uint32_t samples = 2);
 
     /// Records a frame. The particle buffers are only read. Throws Input for a splat radius that is not positive, a
-    /// light direction of length 0, a color range of width 0, or more particles or discs than an index holds (2^28).
+    /// light direction of length 0, a color range of width 0, or more particles or discs than an index holds (2^28) or
+    /// the device fetches. Makes room for more of them than ever before; then no frame may be under way.
     void draw(gpu::Commands& commands, const Frame& frame);
 
     /// The picture last drawn (its commands submitted and waited for): copies it to the host and waits.
@@ -47,14 +52,20 @@ private:
     gpu::Image visibility_;
     gpu::Image depth_;
     gpu::Image picture_;
+    gpu::Image only_floor_; ///< depth of the picture: 1 where it shows the floor or the background alone
     gpu::Buffer params_;
     gpu::Buffer readback_;
+    Spheres spheres_;
+    QuadKernels quad_kernels_;
+    std::array<SplatQuads, 2> sphere_quads_; ///< seen from the light, and by the camera
+    std::array<SplatQuads, 2> disc_quads_;
 
     gpu::GraphicsPipeline sphere_shadow_;
     gpu::GraphicsPipeline disc_shadow_;
     gpu::GraphicsPipeline sphere_;
     gpu::GraphicsPipeline disc_;
     gpu::GraphicsPipeline line_;
+    gpu::GraphicsPipeline floor_;
     gpu::GraphicsPipeline resolve_;
     gpu::Commands transfers_;
 };

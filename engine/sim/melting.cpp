@@ -48,7 +48,7 @@ double shortest_melting(const shared::SphParams& params, const MeltingSettings& 
 
 Melting::Melting(const gpu::Context& context, const FluidOptions& options, const shared::SphParams& params,
                  const MeltingSettings& settings, const std::vector<std::uint32_t>& attributes)
-    : time_scale_(settings.time_scale), longest_look_(0.1 * shortest_melting(params, settings)),
+    : time_scale_(settings.time_scale), longest_look_(0.05 * shortest_melting(params, settings)),
       visibility_(context, {.direction = settings.params.sun_direction}, params),
       heat_(context, options, params, settings.heat, attributes, settings.enthalpy),
       warm_(context, "warm", sim_warm_comp, fluid_constants(context.info(), one_by_one(options))),

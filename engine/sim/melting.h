@@ -47,7 +47,7 @@ public:
                         const NeighborGrid& grid, const gpu::Buffer& release_time, const gpu::Buffer& changes,
                         const shared::MeltPush& push, const gpu::Buffer* body_of = nullptr) const;
 
-    /// s of motion, the longest from one look to the next: in it sun and air melt a tenth of a particle. Infinite
+    /// s of motion, the longest from one look to the next: in it sun and air melt a twentieth of a particle. Infinite
     /// where neither melts anything.
     [[nodiscard]] double longest_look() const { return longest_look_; }
 

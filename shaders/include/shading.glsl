@@ -27,7 +27,8 @@ vec3 shade(vec3 albedo, Gloss gloss, vec3 normal, vec3 to_eye, vec3 to_light, fl
     float facing = max(dot(normal, to_light), 0.0);
     vec3 mirrored = reflect(-to_light, normal);
     float highlight = facing > 0.0 ? pow(max(dot(mirrored, to_eye), 0.0), gloss.exponent) : 0.0;
-    float grazing = pow(1.0 - max(dot(normal, to_eye), 0.0), 4.0);
+    float away = 1.0 - max(dot(normal, to_eye), 0.0);
+    float grazing = away * away * away * away;
     vec3 diffuse = albedo * (0.75 * light * facing * KEY_LIGHT + 0.62 * ambient_light(normal));
     vec3 sky = SKY_LIGHT * (0.35 + 0.65 * max(normal.y, 0.0));
     return diffuse + gloss.specular * light * highlight * KEY_LIGHT + gloss.rim * grazing * sky;

@@ -5,9 +5,8 @@
 // sphere, the tangents from the eye. Whatever crosses the near plane is bounded by its part beyond it.
 #ifndef SPLAT_GLSL
 #define SPLAT_GLSL
+#extension GL_EXT_samplerless_texture_functions : require
 #include "include/tangent_frame.glsl"
-#include "shared/particle_state.h"
-
 #include "shared/render_params.h"
 
 struct Ray {
@@ -78,14 +77,11 @@ vec2 sphere_range(SplatCamera camera, float x, float d, float radius)
     float eye_squared = x * x + d * d;
     float tangent = sqrt(max(eye_squared - radius * radius, 0.0));
     float chord = sqrt(max(radius * radius - (near - d) * (near - d), 0.0));
-    vec2 range;
-    for (int i = 0; i < 2; ++i) {
-        float side = i == 0 ? -1.0 : 1.0;
-        vec2 touch = vec2(x * tangent + side * radius * d, d * tangent - side * radius * x); // direction, not point
-        bool beyond_near = touch.y * tangent >= near * eye_squared;
-        range[i] = beyond_near ? touch.x / touch.y : (x + side * chord) / near;
-    }
-    return range;
+    vec2 side = vec2(-1.0, 1.0);
+    vec2 touch = x * tangent + side * radius * d; // with this distance: a direction, not a point
+    vec2 distance = d * tangent - side * radius * x;
+    bvec2 beyond_near = greaterThanEqual(distance * tangent, vec2(near * eye_squared));
+    return mix((x + side * chord) / near, touch / distance, beyond_near);
 }
 
 // n: the normal along the axis, m: along the view direction, other: along the third axis.
@@ -109,12 +105,11 @@ vec4 clipped_disc_bound(SplatCamera camera, vec3 center, vec3 normal, float radi
 {
     vec3 u = radius * normalize(cross(normal, abs(normal.x) < 0.6 ? vec3(1, 0, 0) : vec3(0, 1, 0)));
     vec3 v = cross(normal, u);
-    vec3 corners[4] = vec3[](center - u - v, center + u - v, center + u + v, center - u + v);
     vec2 low = vec2(3.0e38);
     vec2 high = vec2(-3.0e38);
     for (int i = 0; i < 4; ++i) {
-        vec3 a = corners[i];
-        vec3 b = corners[(i + 1) % 4];
+        vec3 a = center + (i == 1 || i == 2 ? u : -u) + (i >= 2 ? v : -v); // counterclockwise
+        vec3 b = center + (i <= 1 ? u : -u) + (i == 1 || i == 2 ? v : -v);
         float excess_a = -a.z - camera.near_distance;
         float excess_b = -b.z - camera.near_distance;
         if (excess_a >= 0.0) {
@@ -159,26 +154,32 @@ vec4 disc_bound(SplatCamera camera, vec3 center, vec3 normal, float radius)
 
 // --- the quad that covers a bound ----------------------------------------------------------------------------------------
 
-const uint VERTICES_PER_QUAD = 6u;
-const vec4 NO_QUAD = vec4(2.0, 2.0, 0.0, 1.0); // outside of the screen
 const float BOUND_MARGIN = 0.25; // samples: more than rasterization rounds positions by
 
-// Clip-space position of one of the quad's six vertices, at the depth of the splat's nearest point: no fragment is nearer,
-// which lets a device reject hidden quads before shading (depth_less). Outside of the screen for an empty bound.
-vec4 quad_vertex(SplatCamera camera, vec4 bound, float nearest, uint vertex)
+// The quad around a bound, (low x, low y, high x, high y) in ndc, clipped to the screen; false where nothing of it is there.
+bool quad_on_screen(SplatCamera camera, vec4 bound, out vec4 quad)
 {
     vec2 a = (bound.xy - camera.plane_offset) / camera.plane_scale;
     vec2 b = (bound.zw - camera.plane_offset) / camera.plane_scale;
     vec2 low = max(min(a, b) - BOUND_MARGIN * camera.pixel, vec2(-1.0));
     vec2 high = min(max(a, b) + BOUND_MARGIN * camera.pixel, vec2(1.0));
-    if (!(bound.x <= bound.z && bound.y <= bound.w && low.x < high.x && low.y < high.y)) {
-        return NO_QUAD;
-    }
-    // 0 1 2, 2 1 3
-    uint corner = vertex < 3u ? vertex : (vertex == 3u ? 2u : (vertex == 4u ? 1u : 3u));
-    vec2 ndc = vec2((corner & 1u) != 0u ? high.x : low.x, (corner & 2u) != 0u ? high.y : low.y);
+    quad = vec4(low, high);
+    return bound.x <= bound.z && bound.y <= bound.w && low.x < high.x && low.y < high.y;
+}
+
+// The depth of a quad, that of the splat's nearest point: no fragment is nearer, which lets a device reject hidden quads before
+// shading (depth_less).
+float quad_depth(SplatCamera camera, float nearest)
+{
     const float slack = 1.0 + 1e-6; // interpolation may round the depth down
-    return vec4(ndc, min(depth_at(camera, max(nearest, camera.near_distance)) * slack, 1.0), 1.0);
+    return min(depth_at(camera, max(nearest, camera.near_distance)) * slack, 1.0);
+}
+
+// Clip-space position of one of a quad's six vertices: 0 1 2, 2 1 3.
+vec4 quad_vertex(vec4 quad, float depth, uint vertex)
+{
+    uint corner = vertex < 3u ? vertex : (vertex == 3u ? 2u : (vertex == 4u ? 1u : 3u));
+    return vec4((corner & 1u) != 0u ? quad.z : quad.x, (corner & 2u) != 0u ? quad.w : quad.y, depth, 1.0);
 }
 
 // A disc's normal where it is met, q off its center, all in one space: `normal` in the middle, and bend.x, y, z say how much
@@ -190,13 +191,6 @@ vec3 bent_normal(vec3 normal, vec3 bend, vec3 q)
     tangent_frame(normal, u, v);
     vec2 at = vec2(dot(q, u), dot(q, v));
     return normalize(normal + dot(bend.xy, at) * u + dot(bend.yz, at) * v);
-}
-
-// The radius of a particle's sphere where it has no size of its own: dust shrinks with what is left of it, which lies in its
-// density.
-float particle_radius(float radius, uint attributes, float density)
-{
-    return particle_state(attributes) == STATE_DUST ? radius * pow(density, 1.0 / 3.0) : radius;
 }
 
 #endif

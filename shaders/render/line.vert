@@ -4,16 +4,15 @@
 
 #include "include/splat.glsl"
 
-layout(binding = 0, scalar) readonly buffer Params { RenderParams params; };
+layout(binding = 0, scalar) uniform Params { RenderParams params; };
 
 // End `end` (0 or 1) of edge 0..11: four edges along each axis.
 vec3 edge_end(uint edge, uint end)
 {
     uint axis = edge / 4u;
-    uvec3 corner;
-    corner[axis] = end;
-    corner[(axis + 1u) % 3u] = edge & 1u;
-    corner[(axis + 2u) % 3u] = (edge >> 1u) & 1u;
+    uint a = edge & 1u;
+    uint b = (edge >> 1u) & 1u;
+    uvec3 corner = axis == 0u ? uvec3(end, a, b) : axis == 1u ? uvec3(b, end, a) : uvec3(a, b, end);
     return mix(params.box_min, params.box_max, vec3(corner));
 }
 

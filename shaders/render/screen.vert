@@ -1,8 +1,8 @@
-// One triangle that covers the screen.
+// One triangle that covers the screen, nearer than the clear depth and farther than what is nearest.
 #version 460
 
 void main()
 {
     vec2 corner = vec2((gl_VertexIndex << 1) & 2, gl_VertexIndex & 2);
-    gl_Position = vec4(corner * 2.0 - 1.0, 0.0, 1.0);
+    gl_Position = vec4(corner * 2.0 - 1.0, 0.5, 1.0);
 }

@@ -1,14 +1,12 @@
-// Particles as spheres: each pulls its particle and spans the quad that covers the sphere on screen.
+// Particles as spheres: each pulls its particle and the quad that covers the sphere on screen (sphere_quad.comp).
 #version 460
 #extension GL_GOOGLE_include_directive : require
 
 #include "include/splat.glsl"
-#include "shared/particle_state.h"
 
-layout(binding = 0, scalar) readonly buffer Positions { vec4 position[]; };
-layout(binding = 1, scalar) readonly buffer Attributes { uint attributes[]; };
-layout(binding = 2, scalar) readonly buffer Densities { float density[]; }; // of dust: what is left of it
-layout(binding = 3, scalar) readonly buffer Sizes { float size[]; }; // in radii, where push.sized
+layout(binding = 0) uniform textureBuffer spheres; // of sphere_look.comp
+layout(binding = 1) uniform textureBuffer quads;
+layout(binding = 2, scalar) readonly buffer List { uint list[]; }; // of those who are to be drawn
 layout(push_constant, scalar) uniform Push { SplatPush push; };
 
 layout(location = 0) flat out vec3 out_center; // view space
@@ -17,19 +15,12 @@ layout(location = 2) flat out float out_radius;
 
 void main()
 {
-    uint particle = uint(gl_VertexIndex) / VERTICES_PER_QUAD;
-    vec3 center = (push.camera.view * vec4(position[particle].xyz, 1.0)).xyz;
-    float radius = push.sized != 0u ? push.radius * size[particle]
-                                    : particle_radius(push.radius, attributes[particle], density[particle]);
-
-    gl_Position = NO_QUAD;
-    // One round, or none, as in disc.vert.
-    uint rounds = particle_state(attributes[particle]) != STATE_DEAD && radius > 0.0 ? 1u : 0u;
-    for (uint k = 0u; k < rounds; ++k) {
-        vec4 bound = sphere_bound(push.camera, center, radius);
-        gl_Position = quad_vertex(push.camera, bound, -center.z - radius, uint(gl_VertexIndex) % VERTICES_PER_QUAD);
-    }
-    out_center = center;
+    uint particle = list[uint(gl_VertexIndex) / VERTICES_PER_QUAD];
+    vec4 sphere = texelFetch(spheres, int(particle));
+    vec4 quad = texelFetch(quads, 2 * int(particle));
+    float depth = texelFetch(quads, 2 * int(particle) + 1).x;
+    gl_Position = quad_vertex(quad, depth, uint(gl_VertexIndex) % VERTICES_PER_QUAD);
+    out_center = (push.camera.view * vec4(sphere.xyz, 1.0)).xyz;
     out_particle = particle;
-    out_radius = radius;
+    out_radius = sphere.w;
 }

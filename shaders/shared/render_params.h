@@ -24,6 +24,11 @@ SHARED_CONSTANT float DISC_FLAT = 0.0f;
 SHARED_CONSTANT float DISC_BENT = 1.0f; // its normals turn along it, and it ends where the surface has left its plane
 SHARED_CONSTANT float DISC_EDGED = 2.0f; // flat, and cut off along a line
 
+// How glossy spheres are: as a wet disc, or, in the data modes, hardly.
+SHARED_CONSTANT float GLOSS_DRY = 0.0f;
+SHARED_CONSTANT float GLOSS_WET = 1.0f;
+SHARED_CONSTANT float GLOSS_MATTE = 2.0f;
+
 // In radii of a bent disc: how far the surface may be off its plane.
 SHARED_CONSTANT float BENT_OFF = 0.15f;
 
@@ -40,11 +45,26 @@ struct SplatCamera {
     uint orthographic;    // 1: all rays are parallel
 };
 
+// Splats are drawn as quads of two triangles.
+SHARED_CONSTANT uint VERTICES_PER_QUAD = 6u;
+
+// Of an indirect draw (VkDrawIndirectCommand).
+struct DrawArguments {
+    uint vertices;
+    uint instances;
+    uint first_vertex;
+    uint first_instance;
+};
+
 // Push constants of the passes that draw splats.
 struct SplatPush {
     SplatCamera camera;
-    float radius; // m, of spheres
-    uint sized;   // as in RenderParams
+};
+
+// Of those that find their quads.
+struct QuadPush {
+    SplatCamera camera;
+    uint count;
 };
 
 // What all passes of a frame read.
