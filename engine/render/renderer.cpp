@@ -15,6 +15,8 @@
 #include "spirv/render/line.frag.h"
 #include "spirv/render/line.vert.h"
 #include "spirv/render/resolve.frag.h"
+#include "spirv/render/sand.frag.h"
+#include "spirv/render/sand.vert.h"
 #include "spirv/render/screen.vert.h"
 #include "spirv/render/sphere.frag.h"
 #include "spirv/render/sphere.vert.h"
@@ -70,8 +72,10 @@ Renderer::Renderer(const gpu::Context& context, std::uint32_t width, std::uint32
       readback_(context, VkDeviceSize{4} * width * height, gpu::MemoryUse::Readback, "picture read-back"),
       sphere_shadow_(context, "sphere shadow", {render_sphere_vert, render_sphere_frag, {}, depth_format}),
       disc_shadow_(context, "disc shadow", {render_disc_vert, render_disc_frag, {}, depth_format}),
+      sand_shadow_(context, "sand shadow", {render_sand_vert, render_sand_frag, {}, depth_format}),
       sphere_(context, "sphere", {render_sphere_vert, render_sphere_frag, {visibility_format}, depth_format}),
       disc_(context, "disc", {render_disc_vert, render_disc_frag, {visibility_format}, depth_format}),
+      sand_(context, "sand", {render_sand_vert, render_sand_frag, {visibility_format}, depth_format}),
       line_(context, "line", {render_line_vert, render_line_frag, {visibility_format}, depth_format}),
       resolve_(context, "resolve", {render_screen_vert, render_resolve_frag, {picture_format}}), transfers_(context)
 {
@@ -90,8 +94,10 @@ void Renderer::draw(gpu::Commands& commands, const Frame& frame)
 {
     const std::uint32_t spheres = frame.particles ? frame.particles->count : 0;
     const std::uint32_t discs = frame.discs ? frame.discs->count : 0;
+    const std::uint32_t quads = frame.sand ? frame.sand->quads : 0;
     check_count(spheres, "particles");
     check_count(discs, "discs");
+    check_count(2 * quads, "triangles of sand");
     shared::RenderParams params = frame_params(frame.settings, width_, height_, samples_, shadow_size);
     const bool knows_when_freed = frame.particles && frame.particles->freed_at != nullptr;
     params.time = frame.particles ? frame.particles->time : 0.0f;
@@ -102,15 +108,16 @@ void Renderer::draw(gpu::Commands& commands, const Frame& frame)
     last_camera_ = params.camera;
 
     const auto splats = [&](const gpu::GraphicsPipeline& sphere, const gpu::GraphicsPipeline& disc,
-                            const shared::SplatCamera& camera) {
-        const shared::SplatPush push{camera, params.splat_radius, params.sized};
+                            const gpu::GraphicsPipeline& sand, const shared::SplatCamera& camera, bool puffs) {
+        const shared::SplatPush push{camera, params.splat_radius, params.sized, puffs ? 1u : 0u};
         std::vector<gpu::Draw> draws;
         if (spheres > 0) {
             draws.push_back({&sphere,
                              spheres * vertices_per_quad,
                              gpu::push_bytes(push),
                              {frame.particles->position, frame.particles->attributes, frame.particles->density,
-                              frame.particles->size != nullptr ? *frame.particles->size : params_}});
+                              frame.particles->size != nullptr ? *frame.particles->size : params_,
+                              frame.particles->size != nullptr ? *frame.particles->id : params_}});
         }
         if (discs > 0) {
             draws.push_back({&disc,
@@ -118,17 +125,22 @@ void Renderer::draw(gpu::Commands& commands, const Frame& frame)
                              gpu::push_bytes(push),
                              {frame.discs->position, frame.discs->normal, frame.discs->bend, frame.discs->color}});
         }
+        if (quads > 0) {
+            draws.push_back(
+                {&sand, quads * vertices_per_quad, gpu::push_bytes(push), {frame.sand->view, frame.sand->corner}});
+        }
         return draws;
     };
 
     if (params.shadows != 0) {
         const gpu::Scope shadow(commands, "shadow map");
         const gpu::Targets targets{.colors = {}, .depth = gpu::DepthTarget{&shadow_map_}};
-        gpu::record_draw_pass(commands, targets, splats(sphere_shadow_, disc_shadow_, params.light));
+        gpu::record_draw_pass(commands, targets,
+                              splats(sphere_shadow_, disc_shadow_, sand_shadow_, params.light, false));
     }
     {
         const gpu::Scope visible(commands, "visible surface");
-        std::vector<gpu::Draw> draws = splats(sphere_, disc_, params.camera);
+        std::vector<gpu::Draw> draws = splats(sphere_, disc_, sand_, params.camera, true);
         if (frame.settings.box && !frame.settings.bounds.empty()) {
             draws.push_back({&line_, box_edges * vertices_per_quad, {}, {params_}});
         }
@@ -148,7 +160,8 @@ void Renderer::draw(gpu::Commands& commands, const Frame& frame)
              frame.discs ? frame.discs->position : none, frame.discs ? frame.discs->normal : none,
              frame.discs ? frame.discs->color : none, knows_when_freed ? *frame.particles->id : none,
              knows_when_freed ? *frame.particles->freed_at : none, params.sized != 0 ? *frame.particles->size : none,
-             frame.discs ? frame.discs->bend : none}};
+             frame.discs ? frame.discs->bend : none, frame.sand ? frame.sand->view : none,
+             frame.sand ? frame.sand->corner : none, frame.sand ? frame.sand->corner_tint : none}};
         const gpu::Targets targets{.colors = {{&picture_}}, .depth = std::nullopt};
         gpu::record_draw_pass(commands, targets, std::span(&draw, 1));
     }

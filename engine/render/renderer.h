@@ -52,8 +52,10 @@ private:
 
     gpu::GraphicsPipeline sphere_shadow_;
     gpu::GraphicsPipeline disc_shadow_;
+    gpu::GraphicsPipeline sand_shadow_;
     gpu::GraphicsPipeline sphere_;
     gpu::GraphicsPipeline disc_;
+    gpu::GraphicsPipeline sand_;
     gpu::GraphicsPipeline line_;
     gpu::GraphicsPipeline resolve_;
     gpu::Commands transfers_;

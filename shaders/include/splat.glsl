@@ -163,6 +163,9 @@ const uint VERTICES_PER_QUAD = 6u;
 const vec4 NO_QUAD = vec4(2.0, 2.0, 0.0, 1.0); // outside of the screen
 const float BOUND_MARGIN = 0.25; // samples: more than rasterization rounds positions by
 
+// Which corner each of the six vertices is: 0 1 2, 2 1 3.
+uint corner_of_vertex(uint vertex) { return vertex < 3u ? vertex : (vertex == 3u ? 2u : (vertex == 4u ? 1u : 3u)); }
+
 // Clip-space position of one of the quad's six vertices, at the depth of the splat's nearest point: no fragment is nearer,
 // which lets a device reject hidden quads before shading (depth_less). Outside of the screen for an empty bound.
 vec4 quad_vertex(SplatCamera camera, vec4 bound, float nearest, uint vertex)
@@ -174,8 +177,7 @@ vec4 quad_vertex(SplatCamera camera, vec4 bound, float nearest, uint vertex)
     if (!(bound.x <= bound.z && bound.y <= bound.w && low.x < high.x && low.y < high.y)) {
         return NO_QUAD;
     }
-    // 0 1 2, 2 1 3
-    uint corner = vertex < 3u ? vertex : (vertex == 3u ? 2u : (vertex == 4u ? 1u : 3u));
+    uint corner = corner_of_vertex(vertex);
     vec2 ndc = vec2((corner & 1u) != 0u ? high.x : low.x, (corner & 2u) != 0u ? high.y : low.y);
     const float slack = 1.0 + 1e-6; // interpolation may round the depth down
     return vec4(ndc, min(depth_at(camera, max(nearest, camera.near_distance)) * slack, 1.0), 1.0);

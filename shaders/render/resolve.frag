@@ -7,6 +7,8 @@
 #include "include/splat.glsl"
 #include "shared/colormap.h"
 #include "shared/particle_state.h"
+#include "shared/sand_surface.h"
+#include "shared/visibility.h"
 
 layout(binding = 0, scalar) readonly buffer Params { RenderParams params; };
 layout(binding = 1) uniform usampler2D visibility;
@@ -24,6 +26,12 @@ layout(binding = 12, scalar) readonly buffer FreedAt { float freed_at[]; }; // b
 
 layout(binding = 13, scalar) readonly buffer Sizes { float size[]; }; // in radii, where params.sized
 layout(binding = 14, scalar) readonly buffer DiscBends { vec4 disc_bend[]; };
+
+layout(binding = 15, scalar) readonly buffer View { VisibilityParams view; }; // of the sheet of sand, as what follows
+layout(binding = 16, scalar) readonly buffer Corners { vec4 corner[]; };
+layout(binding = 17, scalar) readonly buffer CornerTints { vec4 corner_tint[]; };
+
+#include "include/sand_sheet.glsl"
 
 layout(location = 0) out vec4 out_color;
 
@@ -89,6 +97,8 @@ Surface sphere_surface(uint particle, Ray ray)
                                       : particle_radius(params.splat_radius, attributes[particle], density[particle]);
     vec3 point = intersect_sphere(params.camera, ray, center, radius, miss);
     vec3 normal = to_world_direction(normalize(point - center));
+    bool is_puff = params.sized != 0u && is_flying_sand(attributes[particle]);
+    normal = is_puff ? -view.direction : normal; // its specks are as bright as level sand
     return Surface(to_world(point), normal, particle_color(particle), particle_gloss(particle));
 }
 
@@ -107,6 +117,31 @@ Surface disc_surface(uint disc, Ray ray)
     Gloss gloss = Gloss(mix(STONE.specular, WATER.specular, bend.w), mix(STONE.exponent, WATER.exponent, bend.w),
                         mix(STONE.rim, WATER.rim, bend.w));
     return Surface(to_world(point), normal, disc_color[disc].rgb, gloss);
+}
+
+// Of the sheet of sand: its triangles say where it is, and between their corners slopes turn steadily.
+Surface sand_surface(uint triangle, Ray ray)
+{
+    uint quad = triangle / 2u;
+    uint index[4];
+    vec3 point[4];
+    for (uint k = 0u; k < 4u; ++k) {
+        uvec2 at = quad_corner(quad, k);
+        index[k] = corner_index(at);
+        point[k] = place_over_map(vec2(at), corner[index[k]].x);
+    }
+    vec3 origin = to_world(ray.origin);
+    vec3 direction = to_world_direction(ray.direction);
+    vec3 flat_normal = cross(point[2] - point[1], (triangle & 1u) == 0u ? point[0] - point[1] : point[3] - point[1]);
+    vec3 hit = origin + dot(point[1] - origin, flat_normal) / dot(direction, flat_normal) * direction;
+    vec2 at = place_on_map(hit).xy;
+    vec2 f = clamp(at - vec2(quad % view.width, quad / view.width), 0.0, 1.0);
+    vec2 slope = bilinear(corner[index[0]], corner[index[1]], corner[index[2]], corner[index[3]], f).yz;
+    vec3 normal = normalize(-view.direction - slope.x * view.right - slope.y * view.up);
+    vec3 color = bilinear(corner_tint[index[0]], corner_tint[index[1]], corner_tint[index[2]], corner_tint[index[3]], f).rgb;
+    uvec2 grain = uvec2(max(at, 0.0) * GRAINS_A_SPACING);
+    color *= 1.0 + GRAIN_CONTRAST * (2.0 * grain_share(grain.x, grain.y, 1u) - 1.0);
+    return Surface(hit, normal, color, MATTE);
 }
 
 // --- floor -----------------------------------------------------------------------------------------------------------------
@@ -203,6 +238,8 @@ vec3 sample_color(uint visible, vec2 fragment)
         surface = sphere_surface(index, ray);
     } else if (kind == SURFACE_DISC) {
         surface = disc_surface(index, ray);
+    } else if (kind == SURFACE_SAND) {
+        surface = sand_surface(index, ray);
     } else if (kind == SURFACE_LINE) {
         return params.line_color;
     } else if (floor_hit(ray, surface.point, presence, surface.albedo)) {
