@@ -19,9 +19,9 @@ SandSurface::SandSurface(const gpu::Context& context, glm::uvec2 map)
       plane_kernel_(context, "sand_plane", render_sand_plane_comp),
       surface_kernel_(context, "sand_surface", render_sand_surface_comp),
       cover_kernel_(context, "sand_cover", render_sand_cover_comp),
-      column_(gpu::make_buffer<glm::vec4>(context, texels_, "columns of sand")),
-      tint_(gpu::make_buffer<glm::vec4>(context, texels_, "colors of columns")),
-      plane_(gpu::make_buffer<glm::vec4>(context, texels_, "planes of sand")),
+      column_(gpu::make_texel_buffer(context, texels_, "columns of sand")),
+      tint_(gpu::make_texel_buffer(context, texels_, "colors of columns")),
+      plane_(gpu::make_texel_buffer(context, texels_, "planes of sand")),
       corner_(gpu::make_buffer<glm::vec4>(context, corners_, "sheet of sand")),
       corner_tint_(gpu::make_buffer<glm::vec4>(context, corners_, "colors of the sheet"))
 {

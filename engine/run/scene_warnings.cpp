@@ -173,7 +173,9 @@ std::optional<std::string> shifted_surface(const Scene& scene, const ParticleSet
 /// Columns of sand know of solids alone.
 std::optional<std::string> wet_sand(const Scene& scene)
 {
-    if (!has_sand(scene) || (fluid_bodies(scene).empty() && scene.emitters.empty())) {
+    const bool may_melt = std::ranges::any_of(
+        scene.solids, [](const SolidBody& solid) { return !solid.wind_erodes && solid.becomes != SolidBecomes::Dust; });
+    if (!has_sand(scene) || (scene.fluids.empty() && scene.emitters.empty() && !may_melt)) {
         return std::nullopt;
     }
     return "sand (wind_erodes) that comes down or slides does not push fluid aside: where they meet, fluid is thrown "

@@ -9,7 +9,7 @@
 
 layout(set = 0, binding = 0, scalar) uniform Params { SphParams params; };
 layout(set = 0, binding = 1, scalar) uniform View { VisibilityParams view; };
-layout(set = 0, binding = 2, scalar) readonly buffer Column { vec4 column[]; };
+layout(set = 0, binding = 2) uniform textureBuffer column; // texels are faster than a buffer on software devices
 // x: height over the texel's middle, m; yz: slope along the map's axes; w: mean square of how far columns are off, spacings.
 layout(set = 0, binding = 3, scalar) writeonly buffer Plane { vec4 plane[]; };
 
@@ -25,7 +25,7 @@ void main()
     ivec2 texel = ivec2(int(i) % size.x, int(i) / size.x);
     bool along = is_periodic_along(view.right);
     bool across = is_periodic_along(view.up);
-    float base = column[i].x;
+    float base = texelFetch(column, int(i)).x;
     const float widest = float((SHEET_REACH + 1) * (SHEET_REACH + 1));
     float sum = 0.0; // of weights, and with these, of places, their squares, heights in spacings, ...
     vec2 way = vec2(0.0);
@@ -36,7 +36,7 @@ void main()
     for (int y = -SHEET_REACH; y <= SHEET_REACH; ++y) {
         int row = inside(texel.y + y, size.y, across) * size.x;
         for (int x = -SHEET_REACH; x <= SHEET_REACH; ++x) {
-            vec4 its = column[row + inside(texel.x + x, size.x, along)];
+            vec4 its = texelFetch(column, row + inside(texel.x + x, size.x, along));
             float near = max(1.0 - float(x * x + y * y) / widest, 0.0);
             float weight = its.y * near * near;
             vec2 at = vec2(x, y);

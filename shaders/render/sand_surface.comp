@@ -9,9 +9,9 @@
 layout(push_constant, scalar) uniform Push { SandPush push; };
 layout(set = 0, binding = 0, scalar) uniform Params { SphParams params; };
 layout(set = 0, binding = 1, scalar) uniform View { VisibilityParams view; };
-layout(set = 0, binding = 2, scalar) readonly buffer Column { vec4 column[]; };
-layout(set = 0, binding = 3, scalar) readonly buffer Tint { vec4 tint[]; };
-layout(set = 0, binding = 4, scalar) readonly buffer Plane { vec4 plane[]; };
+layout(set = 0, binding = 2) uniform textureBuffer column;
+layout(set = 0, binding = 3) uniform textureBuffer tint;
+layout(set = 0, binding = 4) uniform textureBuffer plane;
 // x: height, m above the floor; yz: slope along the map's axes; w: how much of a sheet is there, 0 to 1, kept.
 layout(set = 0, binding = 5, scalar) buffer Corner { vec4 corner[]; };
 layout(set = 0, binding = 6, scalar) buffer CornerTint { vec4 corner_tint[]; }; // kept where there is no sand
@@ -40,8 +40,8 @@ void main()
         int row = inside(here.y + y, size.y, across) * size.x;
         for (int x = -SHEET_REACH; x < SHEET_REACH; ++x) {
             int texel = row + inside(here.x + x, size.x, along);
-            vec4 its = column[texel];
-            vec4 fit = plane[texel];
+            vec4 its = texelFetch(column, texel);
+            vec4 fit = texelFetch(plane, texel);
             vec2 way = vec2(x, y) + 0.5;
             float near = max(1.0 - dot(way, way) / widest, 0.0);
             float share = its.y * near * near;
@@ -52,7 +52,7 @@ void main()
             slope += weight * fit.yz;
             off += weight * fit.w;
             sand += share * its.z;
-            color += share * its.z * tint[texel].rgb;
+            color += share * its.z * texelFetch(tint, texel).rgb;
         }
     }
     float scale = sum > 0.0 ? 1.0 / sum : 0.0;

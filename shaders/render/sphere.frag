@@ -20,7 +20,7 @@ bool is_speck(vec2 off)
 {
     uvec2 speck = uvec2(ivec2(floor(off * SPECKS_A_RADIUS)) + 256);
     float inside = 1.0 - dot(off, off);
-    return grain_share(speck.x, speck.y, in_puff) < PUFF_COVERAGE * inside * inside * inside;
+    return grain_share(speck.x, speck.y, in_puff) < PUFF_COVERAGE * inside * inside;
 }
 
 void main()
