@@ -1440,6 +1440,49 @@ mutation "wind: sand lost beyond the border is not counted" \
     'atomicAdd(ledger.sunk, 0u)' \
     conformance_tests 'SandTest.RerunsAreBitIdenticalAndTheLedgerIsExact'
 
+# --- the sheet of sand --------------------------------------------------------------------------------------------------
+
+mutation "sand: it has no sheet" \
+    engine/run/solid_splats.cpp \
+    'material.wind_erodes ? 1 : 0' \
+    'material.wind_erodes ? 0 : 0' \
+    image_tests 'SandFramesTest.ADuneIsSmooth:Scenes/SolidFramesTest.NothingPops/dune'
+mutation "sand: all fits of its sheet count alike" \
+    shaders/render/sand_surface.comp \
+    'share / (scatter * scatter)' \
+    'share' \
+    conformance_tests 'SandSurfaceTest.ACrestStaysSharp:SandSurfaceTest.TheDeviceConformsToTheTwin'
+mutation "sand: a particle that lands is a step of its sheet" \
+    shaders/render/sand_column.comp \
+    '1.0 - exp(-push.seconds / COLUMN_TIME)' \
+    '1.0' \
+    conformance_tests 'SandSurfaceTest.HeightsFollowInTime'
+mutation "sand: its sheet is that of its columns" \
+    shaders/render/sand_plane.comp \
+    'base + (mean_height - dot(slope, mean)) * view.spacing, slope *' \
+    'base, 0.0 * slope *' \
+    conformance_tests 'SandSurfaceTest.AStaircaseIsASmoothSlope'
+mutation "sand: its sheet hangs down cliffs" \
+    shaders/render/sand_surface.comp \
+    'length(slope) <= STEEPEST_SHEET && off <= ROUGHEST_SHEET * ROUGHEST_SHEET' \
+    'length(slope) <= 100.0' \
+    conformance_tests 'SandSurfaceTest.SteepSandHasNoSheet'
+mutation "sand: what overhangs is not seen" \
+    shaders/render/sand_cover.comp \
+    'above < -COVERED_BELOW' \
+    'false' \
+    conformance_tests 'SandSurfaceTest.TheDeviceConformsToTheTwin'
+mutation "solids: splats stretch as far as their hosts part" \
+    shaders/render/surface_splat.comp \
+    'stretch > MOST_STRETCH * splat.span' \
+    'false' \
+    conformance_tests 'SolidSplatsTest.WhoseHostsPartIsGone:SolidSplatsTest.TheDeviceConformsToTheTwin'
+mutation "wind: sand flies through closed walls" \
+    shaders/sim/hop.comp \
+    'v = mix(v, vec3(0.0), notEqual(within, next));' \
+    'within = next;' \
+    conformance_tests 'SandTest.WallsStopSandInTheAir'
+
 # --- heat ---------------------------------------------------------------------------------------------------------------
 
 mutation "heat: what a float cannot hold is lost" \

@@ -130,6 +130,16 @@ glm::dvec3 bend(const std::vector<Disc>& discs, const State& state, std::size_t 
     return glm::clamp(glm::dvec3(map[0][0], 0.5 * (map[0][1] + map[1][0]), map[1][1]), -most, most);
 }
 
+/// Whether its hosts have parted.
+bool is_torn(const shared::HostedSplat& splat, const State& state)
+{
+    const glm::dvec3 a = state.position[splat.host.x];
+    const glm::dvec3 b = state.position[splat.host.y];
+    const glm::dvec3 c = state.position[splat.host.z];
+    const double stretch = std::max({glm::distance(a, b), glm::distance(b, c), glm::distance(c, a)});
+    return stretch > static_cast<double>(shared::MOST_STRETCH * splat.span);
+}
+
 /// How much there is of a hosted splat.
 double left_of(const shared::HostedSplat& splat, const std::vector<double>& left)
 {
@@ -227,10 +237,10 @@ SolidSplats solid_splats(const Settings& settings, const shared::SolidSplatParam
     for (std::size_t k = 0; k < sources.hosted.size(); ++k) {
         const shared::HostedSplat& splat = sources.hosted[k];
         found.hosted.push_back(hosted_disc(splat, spacing, state, found));
+        found.gone[k] = found.gone[k] || left_of(splat, found.left) <= 0.0 || is_torn(splat, state);
         if (found.gone[k]) {
             found.hosted.back().radius = 0.0;
         }
-        found.gone[k] = found.gone[k] || left_of(splat, found.left) <= 0.0;
     }
     return found;
 }

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <algorithm>
+#include <cmath>
 #include <cstdint>
 
 #include <glm/glm.hpp>
@@ -74,6 +76,24 @@ using Reflection = std::uint32_t;
         }
     }
     return position;
+}
+
+/// Twin of the same: along a unit vector that is an axis or its opposite.
+[[nodiscard]] inline bool is_periodic_along(const shared::SphParams& params, const glm::vec3& along)
+{
+    for (int axis = 0; axis < 3; ++axis) {
+        if (std::abs(along[axis]) > 0.5f && (params.periodic_mask >> (2 * axis) & 1u) != 0u) {
+            return true;
+        }
+    }
+    return false;
+}
+
+/// Twin of the same: a texel beyond a map's border is that at the border, or, where space is periodic, at the other
+/// one.
+[[nodiscard]] inline int inside(int i, int count, bool is_periodic)
+{
+    return is_periodic ? (i + count) % count : std::clamp(i, 0, count - 1);
 }
 
 /// Of a wall with that inward normal, m/s: only the lid moves.

@@ -34,30 +34,13 @@ const Ground& ground_at(const SandScene& scene, const glm::ivec2& texel)
     return scene.ground[index_of(scene, texel)];
 }
 
-/// Along a unit vector that is an axis or its opposite.
-bool is_periodic_along(const Settings& settings, const glm::vec3& along)
-{
-    for (int axis = 0; axis < 3; ++axis) {
-        if (std::abs(along[axis]) > 0.5f && (settings.params.periodic_mask >> (2 * axis) & 1u) != 0) {
-            return true;
-        }
-    }
-    return false;
-}
-
-/// A texel beyond the map's border: that at the border, or, where space is periodic, at the other one.
-int inside(int i, int count, bool is_periodic)
-{
-    return is_periodic ? (i + count) % count : std::clamp(i, 0, count - 1);
-}
-
 /// One of the eight around a texel, k % 3 - 1, k / 3 - 1 away: itself where that is beyond a border.
 glm::ivec2 neighbor_of(const Settings& settings, const SandScene& scene, const glm::ivec2& texel, std::uint32_t k)
 {
     const shared::VisibilityParams& view = scene.view;
     const glm::ivec2 there = texel + glm::ivec2(k % 3, k / 3) - 1;
-    return {inside(there.x, static_cast<int>(view.width), is_periodic_along(settings, view.right)),
-            inside(there.y, static_cast<int>(view.height), is_periodic_along(settings, view.up))};
+    return {inside(there.x, static_cast<int>(view.width), is_periodic_along(settings.params, view.right)),
+            inside(there.y, static_cast<int>(view.height), is_periodic_along(settings.params, view.up))};
 }
 
 /// Where a particle in the middle of a column is, so many m above the floor.
@@ -148,8 +131,8 @@ std::vector<Ground> ground(const Settings& settings, const shared::VisibilityPar
     const auto height = static_cast<int>(view.height);
     const auto top_of = [&](int x, int y) {
         const std::uint32_t depth =
-            map[static_cast<std::size_t>(inside(y, height, is_periodic_along(settings, view.up)) * width +
-                                         inside(x, width, is_periodic_along(settings, view.right)))];
+            map[static_cast<std::size_t>(inside(y, height, is_periodic_along(settings.params, view.up)) * width +
+                                         inside(x, width, is_periodic_along(settings.params, view.right)))];
         return depth == shared::NOTHING_SEEN
                    ? -0.5 * static_cast<double>(view.spacing)
                    : (static_cast<double>(shared::DEPTH_STEPS) - depth) / static_cast<double>(view.depth_scale);
@@ -319,12 +302,18 @@ void move_sand(const Settings& settings, const SandScene& scene, State& state, S
 
         glm::dvec3 next = wrap_position(params, x + dt * v);
         next += std::max(0.5 * d - height_of(wind, next), 0.0) * up;
-        const bool inside = glm::all(glm::greaterThanEqual(next, glm::dvec3(params.domain_min))) &&
-                            glm::all(glm::lessThanEqual(next, glm::dvec3(params.domain_max)));
         if (top_at(next) > height_of(wind, next) + static_cast<double>(shared::HIGHEST_CLIMB) * d) {
             v = glm::dot(v, up) * up;
             next = x + dt * v;
         }
+        for_each_wall(params, next, [&](double distance, const glm::dvec3& normal) {
+            if (distance < 0.0) {
+                next -= distance * normal;
+                v -= glm::dot(v, normal) * normal;
+            }
+        });
+        const bool inside = glm::all(glm::greaterThanEqual(next, glm::dvec3(params.domain_min))) &&
+                            glm::all(glm::lessThanEqual(next, glm::dvec3(params.domain_max)));
         const double lowest = top_at(next) + d;
         const bool lands = inside && height_of(wind, next) <= lowest && glm::dot(v, up) <= 0.0;
         next += lands ? (lowest - height_of(wind, next)) * up : glm::dvec3(0.0);

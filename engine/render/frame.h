@@ -30,8 +30,8 @@ struct ParticleView {
     const gpu::Buffer* id = nullptr;
     float time = 0.0f; ///< s, of the frame
 
-    /// Of each sphere, in radii of FrameSettings: float, in the particles' order. Null: all have one size, but for
-    /// dust.
+    /// Of each sphere, in radii of FrameSettings: float, in the particles' order; then there are ids, too. Null: all
+    /// have one size, but for dust.
     const gpu::Buffer* size = nullptr;
 };
 
@@ -44,6 +44,14 @@ struct DiscView {
     /// the way from its center times xyz is at most 1; w is how wet it is, 0 to 1.
     const gpu::Buffer& bend;
     std::uint32_t count = 0;
+};
+
+/// The sheet over columns of sand (shared/sand_surface.h) in device buffers, read only.
+struct SandSheetView {
+    const gpu::Buffer& view;        ///< shared::VisibilityParams, of the map from above
+    const gpu::Buffer& corner;      ///< vec4: height, slope, how much of a sheet there is
+    const gpu::Buffer& corner_tint; ///< vec4: linear RGB
+    std::uint32_t quads = 0;        ///< texels of the map
 };
 
 /// A ground plane that fades into the background.
@@ -79,6 +87,7 @@ struct Frame {
     FrameSettings settings;
     std::optional<ParticleView> particles;
     std::optional<DiscView> discs;
+    std::optional<SandSheetView> sand = std::nullopt;
 };
 
 } // namespace meltpoint::render

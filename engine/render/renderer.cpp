@@ -16,6 +16,8 @@
 #include "spirv/render/line.frag.h"
 #include "spirv/render/line.vert.h"
 #include "spirv/render/resolve.frag.h"
+#include "spirv/render/sand.frag.h"
+#include "spirv/render/sand.vert.h"
 #include "spirv/render/screen.vert.h"
 #include "spirv/render/sphere.frag.h"
 #include "spirv/render/sphere.vert.h"
@@ -75,12 +77,16 @@ Renderer::Renderer(const gpu::Context& context, std::uint32_t width, std::uint32
       disc_quads_{SplatQuads(context), SplatQuads(context)},
       sphere_shadow_(context, "sphere shadow", {render_sphere_vert, render_sphere_frag, {}, depth_format}),
       disc_shadow_(context, "disc shadow", {render_disc_vert, render_disc_frag, {}, depth_format}),
+      sand_shadow_(context, "sand shadow", {render_sand_vert, render_sand_frag, {}, depth_format}),
       sphere_(context, "sphere", {render_sphere_vert, render_sphere_frag, {visibility_format}, depth_format}),
       disc_(context, "disc", {render_disc_vert, render_disc_frag, {visibility_format}, depth_format}),
+      sand_(context, "sand", {render_sand_vert, render_sand_frag, {visibility_format}, depth_format}),
       line_(context, "line", {render_line_vert, render_line_frag, {visibility_format}, depth_format}),
       floor_(context, "floor", {render_screen_vert, render_floor_frag, {picture_format}, depth_format, {{0, samples}}}),
       resolve_(context, "resolve",
                {render_screen_vert, render_resolve_frag, {picture_format}, depth_format, {{0, samples}}}),
+      resolve_sand_(context, "resolve with sand",
+                    {render_screen_vert, render_resolve_frag, {picture_format}, depth_format, {{0, samples}, {1, 1}}}),
       transfers_(context)
 {
 }
@@ -98,8 +104,10 @@ void Renderer::draw(gpu::Commands& commands, const Frame& frame)
 {
     const std::uint32_t spheres = frame.particles ? frame.particles->count : 0;
     const std::uint32_t discs = frame.discs ? frame.discs->count : 0;
+    const std::uint32_t quads = frame.sand ? frame.sand->quads : 0;
     check_count(spheres, "particles");
     check_count(discs, "discs");
+    check_count(2 * quads, "triangles of sand");
     shared::RenderParams params = frame_params(frame.settings, width_, height_, samples_, shadow_size);
     const bool knows_when_freed = frame.particles && frame.particles->freed_at != nullptr;
     params.time = frame.particles ? frame.particles->time : 0.0f;
@@ -112,26 +120,34 @@ void Renderer::draw(gpu::Commands& commands, const Frame& frame)
         spheres_.record(commands, params_, *frame.particles);
     }
 
-    const auto splats = [&](const gpu::GraphicsPipeline& sphere, const gpu::GraphicsPipeline& disc, std::size_t view) {
+    const auto splats = [&](const gpu::GraphicsPipeline& sphere, const gpu::GraphicsPipeline& disc,
+                            const gpu::GraphicsPipeline& sand, std::size_t view) {
         const shared::SplatCamera& camera = view == light_view ? params.light : params.camera;
         const shared::SplatPush push{camera};
         std::vector<gpu::Draw> draws;
         if (spheres > 0) {
-            SplatQuads& quads = sphere_quads_[view];
-            quads.record_spheres(commands, quad_kernels_, camera, spheres_.sphere(), spheres);
+            SplatQuads& found = sphere_quads_[view];
+            found.record_spheres(commands, quad_kernels_, camera, spheres_, spheres, view == camera_view);
             draws.push_back({.pipeline = &sphere,
                              .push = gpu::push_bytes(push),
-                             .bindings = {spheres_.sphere(), quads.quads(), quads.list()},
-                             .arguments = &quads.arguments()});
+                             .bindings = {spheres_.sphere(), found.quads(), found.list(), spheres_.look(),
+                                          params.sized != 0 ? *frame.particles->id : found.list()},
+                             .arguments = &found.arguments()});
         }
         if (discs > 0) {
             const DiscView& its = *frame.discs;
-            SplatQuads& quads = disc_quads_[view];
-            quads.record_discs(commands, quad_kernels_, camera, its.position, its.normal, discs);
+            SplatQuads& found = disc_quads_[view];
+            found.record_discs(commands, quad_kernels_, camera, its.position, its.normal, discs);
             draws.push_back({.pipeline = &disc,
                              .push = gpu::push_bytes(push),
-                             .bindings = {its.position, its.normal, its.bend, its.color, quads.quads(), quads.list()},
-                             .arguments = &quads.arguments()});
+                             .bindings = {its.position, its.normal, its.bend, its.color, found.quads(), found.list()},
+                             .arguments = &found.arguments()});
+        }
+        if (quads > 0) {
+            draws.push_back({.pipeline = &sand,
+                             .vertices = quads * shared::VERTICES_PER_QUAD,
+                             .push = gpu::push_bytes(push),
+                             .bindings = {frame.sand->view, frame.sand->corner}});
         }
         return draws;
     };
@@ -139,11 +155,11 @@ void Renderer::draw(gpu::Commands& commands, const Frame& frame)
     if (params.shadows != 0) {
         const gpu::Scope shadow(commands, "shadow map");
         const gpu::Targets targets{.colors = {}, .depth = gpu::DepthTarget{&shadow_map_}};
-        gpu::record_draw_pass(commands, targets, splats(sphere_shadow_, disc_shadow_, light_view));
+        gpu::record_draw_pass(commands, targets, splats(sphere_shadow_, disc_shadow_, sand_shadow_, light_view));
     }
     {
         const gpu::Scope visible(commands, "visible surface");
-        std::vector<gpu::Draw> draws = splats(sphere_, disc_, camera_view);
+        std::vector<gpu::Draw> draws = splats(sphere_, disc_, sand_, camera_view);
         if (frame.settings.box && !frame.settings.bounds.empty()) {
             draws.push_back({&line_, box_edges * shared::VERTICES_PER_QUAD, {}, {params_}});
         }
@@ -154,12 +170,14 @@ void Renderer::draw(gpu::Commands& commands, const Frame& frame)
         const gpu::Scope resolve(commands, "resolve");
         const gpu::Buffer& none = spheres_.sphere(); // bound where there is nothing to look up, never indexed
         const gpu::Draw floor{&floor_, 3, {}, {params_, visibility_, shadow_map_}};
-        const gpu::Draw surfaces{&resolve_,
+        const gpu::Draw surfaces{frame.sand ? &resolve_sand_ : &resolve_,
                                  3,
                                  {},
                                  {params_, visibility_, shadow_map_, spheres_.sphere(), spheres_.look(),
                                   frame.discs ? frame.discs->position : none, frame.discs ? frame.discs->normal : none,
-                                  frame.discs ? frame.discs->color : none, frame.discs ? frame.discs->bend : none}};
+                                  frame.discs ? frame.discs->color : none, frame.discs ? frame.discs->bend : none,
+                                  frame.sand ? frame.sand->view : params_, frame.sand ? frame.sand->corner : none,
+                                  frame.sand ? frame.sand->corner_tint : none}};
         const gpu::Targets targets{.colors = {{&picture_}}, .depth = gpu::DepthTarget{&only_floor_}};
         gpu::record_draw_pass(commands, targets, std::array{floor, surfaces});
     }

@@ -62,11 +62,14 @@ private:
 
     gpu::GraphicsPipeline sphere_shadow_;
     gpu::GraphicsPipeline disc_shadow_;
+    gpu::GraphicsPipeline sand_shadow_;
     gpu::GraphicsPipeline sphere_;
     gpu::GraphicsPipeline disc_;
+    gpu::GraphicsPipeline sand_;
     gpu::GraphicsPipeline line_;
     gpu::GraphicsPipeline floor_;
     gpu::GraphicsPipeline resolve_;
+    gpu::GraphicsPipeline resolve_sand_; ///< where there is a sheet of sand
     gpu::Commands transfers_;
 };
 

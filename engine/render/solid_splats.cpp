@@ -25,7 +25,8 @@ std::array<gpu::SpecConstant, 1> texel_constants(const gpu::DeviceInfo& device)
 } // namespace
 
 SolidSplats::SolidSplats(const gpu::Context& context, const shared::SolidSplatParams& params,
-                         std::span<const shared::HostedSplat> hosted, std::span<const std::uint32_t> cover)
+                         std::span<const shared::HostedSplat> hosted, std::span<const std::uint32_t> cover,
+                         glm::uvec2 sand_map)
     : pool_(static_cast<std::uint32_t>(cover.size())), hosted_count_(static_cast<std::uint32_t>(hosted.size())),
       progress_(context, "solid_progress", render_solid_progress_comp),
       particle_splat_(context, "particle_splat", render_particle_splat_comp, texel_constants(context.info())),
@@ -39,6 +40,9 @@ SolidSplats::SolidSplats(const gpu::Context& context, const shared::SolidSplatPa
       size_(gpu::make_buffer<float>(context, pool_, "ball size")),
       kept_(gpu::make_buffer<glm::vec2>(context, pool_, "kept of solids"))
 {
+    if (sand_map.x > 0) {
+        sand_.emplace(context, sand_map);
+    }
     gpu::upload<shared::SolidSplatParams>(context, params_, {&params, 1});
     gpu::upload<shared::HostedSplat>(context, hosted_, hosted);
     gpu::upload<std::uint32_t>(context, cover_, cover);
@@ -67,6 +71,9 @@ void SolidSplats::record(gpu::Commands& commands, const SolidView& view, const D
                       {read(view.params), read(params_), read(particles.id), read(particles.attributes),
                        read(particles.position), read(particles.density), or_none(view.freed_at),
                        or_none(view.enthalpy), or_none(view.damage), write(living_), write(place_), write(size_)});
+    if (sand_) {
+        sand_->record(commands, *view.sand, particles, view.params, params_, place_, living_, size_, push.seconds);
+    }
     commands.dispatch(particle_splat_, pool_, push,
                       {read(view.params), read(params_), read(view.cell_start), read(living_), read(living_),
                        read(particles.id), read(particles.attributes), read_write(kept_), read_write(size_),

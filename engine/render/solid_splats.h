@@ -1,11 +1,13 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <span>
 
 #include "gpu/commands.h"
 #include "particle_buffers/particle_buffers.h"
 #include "render/disc_buffers.h"
+#include "render/sand_surface.h"
 #include "shared/solid_splats.h"
 
 namespace meltpoint::render {
@@ -19,25 +21,31 @@ struct SolidView {
     const gpu::Buffer* damage = nullptr;   ///< vec2, two-floats
     const gpu::Buffer* freed_at = nullptr; ///< float, s
     double time = 0.0;                     ///< s, of the frame
+    std::optional<SandView> sand = std::nullopt;
 };
 
-/// The splats of solids that erode (shared/solid_splats.h): four passes a frame that place them among discs.
+/// The splats of solids that erode (shared/solid_splats.h): four passes a frame that place them among discs. Where
+/// there is sand, also the sheet over it (shared/sand_surface.h).
 class SolidSplats {
 public:
-    /// cover: of each particle, by id, the hosted splat above it, or shared::NO_COVER. Throws Device when its buffers
-    /// do not fit.
+    /// cover: of each particle, by id, the hosted splat above it, or shared::NO_COVER. sand_map: texels along the
+    /// sides of the map of sand from above; 0: there is no sand. Throws Device when its buffers do not fit.
     SolidSplats(const gpu::Context& context, const shared::SolidSplatParams& params,
-                std::span<const shared::HostedSplat> hosted, std::span<const std::uint32_t> cover);
+                std::span<const shared::HostedSplat> hosted, std::span<const std::uint32_t> cover,
+                glm::uvec2 sand_map = {0, 0});
 
     /// Discs that it places: one a particle, then the hosted ones.
     [[nodiscard]] std::uint32_t room() const { return pool_ + hosted_count_; }
 
     /// Places the discs from `first` on, of which there must be room(), and finds the size of everybody's ball, as they
-    /// are at view.time, and how wet solids have become since the last call. What params.progress names must be there.
+    /// are at view.time, and how wet solids have become since the last call. What params.progress names must be there,
+    /// and view.sand where there is sand.
     void record(gpu::Commands& commands, const SolidView& view, const DiscBuffers& discs, std::uint32_t first);
 
     /// Of each particle's ball, in the order they lie in: float, in radii of a particle.
     [[nodiscard]] const gpu::Buffer& size() const { return size_; }
+    /// Null where there is none.
+    [[nodiscard]] const SandSurface* sand() const { return sand_ ? &*sand_ : nullptr; }
     /// What is kept from frame to frame: vec2 by id, how wet it is, 0 to 1, and c when it was first seen as a solid.
     [[nodiscard]] const gpu::Buffer& kept() const { return kept_; }
 
@@ -56,6 +64,7 @@ private:
     gpu::Buffer place_;  ///< uint, by id
     gpu::Buffer size_;   ///< float, in the particles' order
     gpu::Buffer kept_;   ///< vec2, by id
+    std::optional<SandSurface> sand_;
 };
 
 } // namespace meltpoint::render

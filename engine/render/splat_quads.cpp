@@ -44,12 +44,12 @@ void SplatQuads::make_room(std::uint32_t count)
 }
 
 void SplatQuads::record_spheres(gpu::Commands& commands, const QuadKernels& kernels, const shared::SplatCamera& camera,
-                                const gpu::Buffer& spheres, std::uint32_t count)
+                                const Spheres& spheres, std::uint32_t count, bool puffs)
 {
     make_room(count);
     const gpu::Scope scope(commands, "sphere quads");
-    commands.dispatch(kernels.sphere_, count, shared::QuadPush{camera, count},
-                      {read(spheres), write(quads_), write(flags_)});
+    commands.dispatch(kernels.sphere_, count, shared::QuadPush{camera, count, puffs ? 1u : 0u},
+                      {read(spheres.sphere()), read(spheres.look()), write(quads_), write(flags_)});
     record_list(commands, kernels, count);
 }
 
@@ -58,7 +58,7 @@ void SplatQuads::record_discs(gpu::Commands& commands, const QuadKernels& kernel
 {
     make_room(count);
     const gpu::Scope scope(commands, "disc quads");
-    commands.dispatch(kernels.disc_, count, shared::QuadPush{camera, count},
+    commands.dispatch(kernels.disc_, count, shared::QuadPush{camera, count, 1},
                       {read(position), read(normal), write(quads_), write(flags_)});
     record_list(commands, kernels, count);
 }

@@ -5,6 +5,7 @@
 #include "gpu/commands.h"
 #include "gpu/kernel.h"
 #include "primitives/prefix_scan.h"
+#include "render/spheres.h"
 #include "shared/render_params.h"
 
 namespace meltpoint::render {
@@ -30,11 +31,11 @@ class SplatQuads {
 public:
     explicit SplatQuads(const gpu::Context& context);
 
-    /// Of the first `count` spheres (center and radius, vec4). Makes new buffers for more splats than ever before: then
-    /// no frame may be under way. Throws Input where they are more than the device fetches, Device when the buffers do
-    /// not fit.
+    /// Of the first `count` spheres; puffs of sand are not seen without `puffs`. Makes new buffers for more splats than
+    /// ever before: then no frame may be under way. Throws Input where they are more than the device fetches, Device
+    /// when the buffers do not fit.
     void record_spheres(gpu::Commands& commands, const QuadKernels& kernels, const shared::SplatCamera& camera,
-                        const gpu::Buffer& spheres, std::uint32_t count);
+                        const Spheres& spheres, std::uint32_t count, bool puffs);
     /// Of the first `count` discs (render/frame.h, DiscView).
     void record_discs(gpu::Commands& commands, const QuadKernels& kernels, const shared::SplatCamera& camera,
                       const gpu::Buffer& position, const gpu::Buffer& normal, std::uint32_t count);

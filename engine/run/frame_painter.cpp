@@ -24,13 +24,20 @@ render::ParticleView particle_view(const sim::Simulation& simulation)
 
 render::SolidView solid_view(const sim::Simulation& simulation)
 {
-    return {.params = simulation.params_buffer(),
-            .cell_start = simulation.cell_start(),
-            .particles = simulation.particles(),
-            .enthalpy = simulation.enthalpy_buffer(),
-            .damage = simulation.damage_buffer(),
-            .freed_at = simulation.release_time(),
-            .time = simulation.time()};
+    render::SolidView view{.params = simulation.params_buffer(),
+                           .cell_start = simulation.cell_start(),
+                           .particles = simulation.particles(),
+                           .enthalpy = simulation.enthalpy_buffer(),
+                           .damage = simulation.damage_buffer(),
+                           .freed_at = simulation.release_time(),
+                           .time = simulation.time()};
+    if (const sim::Wind* wind = simulation.wind()) {
+        view.sand.emplace(render::SandView{.view = wind->from_above().params(),
+                                           .ground = wind->ground(),
+                                           .top_id = wind->top_id(),
+                                           .damage = wind->damage()});
+    }
+    return view;
 }
 
 } // namespace
@@ -47,7 +54,8 @@ FramePainter::FramePainter(const gpu::Context& context, const Scene& scene, cons
         const std::uint32_t pool = simulation->particles().count;
         const std::uint64_t taken = std::uint64_t{first_of_solids_} + pool;
         const SolidSurface surface = make_solid_surface(scene, simulation->download(), limit - std::min(limit, taken));
-        solids_.emplace(context, solid_splat_params(scene), surface.splats, surface.cover);
+        solids_.emplace(context, solid_splat_params(scene), surface.splats, surface.cover,
+                        simulation->wind() != nullptr ? simulation->wind()->from_above().size() : glm::uvec2(0));
     }
     const std::uint32_t room = solids_ ? solids_->room() : 0;
     if (first_of_solids_ + room > 0) {
@@ -57,13 +65,16 @@ FramePainter::FramePainter(const gpu::Context& context, const Scene& scene, cons
 
 Image FramePainter::paint(const sim::Simulation* simulation)
 {
-    render::Frame frame{.settings = settings_, .particles = std::nullopt, .discs = std::nullopt};
+    render::Frame frame{.settings = settings_, .particles = std::nullopt, .discs = std::nullopt, .sand = std::nullopt};
     commands_.begin();
     if (simulation != nullptr) {
         frame.particles.emplace(particle_view(*simulation));
         if (solids_) {
             solids_->record(commands_, solid_view(*simulation), *discs_, first_of_solids_);
             frame.particles->size = &solids_->size();
+            if (solids_->sand() != nullptr) {
+                frame.sand.emplace(solids_->sand()->sheet(simulation->wind()->from_above().params()));
+            }
         }
     }
     if (discs_) {

@@ -75,6 +75,7 @@ render::FrameSettings frame_settings(const Scene& any_scene, const shared::SphPa
     render::FrameSettings settings;
     settings.camera = scene_camera(scene);
     settings.background = scene.render.background;
+    settings.light_direction = scene.render.light;
     settings.bounds = {scene.domain.min, scene.domain.max};
     settings.box = scene.domain.walls || glm::any(scene.domain.periodic);
     settings.color_mode = color_mode(scene.render.color);

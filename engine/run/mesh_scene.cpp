@@ -203,7 +203,12 @@ void set_dune(Scene& scene, const MeshShape& mesh, const Model& model, double si
     scene.particles.spacing = static_cast<float>(std::cbrt(model.volume / wanted_solid_particles));
     scene.time.frame_rate = 24.0f / speed;
     set_box(scene, model, 0.7f * largest, 0.5f * largest);
-    scene.domain.max.x += 0.6f * largest; // where the sand is blown to
+    scene.domain.max.x += 1.2f * largest; // where the sand is blown to
+    scene.domain.walls = false;           // and beyond
+    scene.camera.eye = largest * glm::vec3(1.9f, 0.9f, 2.2f);
+    scene.camera.target = glm::vec3(0.4f * largest, 0.3f * model.extent.y, 0.0f);
+    scene.camera.field_of_view = 38.0f;
+    scene.render.light = {-0.9f, 0.6f, 0.3f}; // low above the windward side
 
     SolidBody sand;
     sand.shape = mesh;
@@ -220,7 +225,7 @@ void set_dune(Scene& scene, const MeshShape& mesh, const Model& model, double si
     const double flux = sim::bagnold_flux({.friction_velocity = static_cast<double>(scene.wind.friction_velocity)},
                                           {.grain_size = static_cast<double>(*sand.erosion.grain_size)}, 9.81);
     const double lost = flux / (static_cast<double>(scene.wind.hop_length) * 1600.0); // m/s
-    scene.wind.time_scale = static_cast<float>(0.06 * std::sqrt(similarity) / lost);
+    scene.wind.time_scale = static_cast<float>(0.02 * std::sqrt(similarity) / lost);
     scene.solids.push_back(sand);
 }
 

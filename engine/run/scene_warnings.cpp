@@ -1,11 +1,13 @@
 #include "run/scene_warnings.h"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <optional>
 
 #include <fmt/format.h>
 
+#include "run/wind_settings.h"
 #include "scene/liquids.h"
 #include "scene/materials.h"
 #include "shared/sph_params.h"
@@ -171,11 +173,49 @@ std::optional<std::string> shifted_surface(const Scene& scene, const ParticleSet
 /// Columns of sand know of solids alone.
 std::optional<std::string> wet_sand(const Scene& scene)
 {
-    if (!has_sand(scene) || (fluid_bodies(scene).empty() && scene.emitters.empty())) {
+    const bool may_melt = std::ranges::any_of(
+        scene.solids, [](const SolidBody& solid) { return !solid.wind_erodes && solid.becomes != SolidBecomes::Dust; });
+    if (!has_sand(scene) || (scene.fluids.empty() && scene.emitters.empty() && !may_melt)) {
         return std::nullopt;
     }
     return "sand (wind_erodes) that comes down or slides does not push fluid aside: where they meet, fluid is thrown "
            "up";
+}
+
+std::optional<std::string> idle_anchor(const Scene& scene)
+{
+    const auto held = std::ranges::find_if(
+        scene.solids, [](const SolidBody& solid) { return solid.wind_erodes && solid.anchor != SolidBody{}.anchor; });
+    if (held == scene.solids.end()) {
+        return std::nullopt;
+    }
+    return fmt::format("solid.{}.anchor does nothing, for it is sand (wind_erodes): that lies on what is below it",
+                       held - scene.solids.begin());
+}
+
+/// Wind that blows and takes no sand, on the steepest slope either.
+std::optional<std::string> idle_wind(const Scene& scene)
+{
+    const std::optional<sim::WindSettings> wind = wind_settings(scene);
+    if (!wind || wind->friction_velocity == 0.0) {
+        return std::nullopt;
+    }
+    if (wind->flux == 0.0) {
+        return "wind.flux is 0, so the wind takes no sand: 1.8 is that of dunes (wind.friction_velocity = 0 is no "
+               "wind)";
+    }
+    const double gravity = glm::length(glm::dvec3(scene.physics.gravity));
+    const double strongest =
+        wind->friction_velocity * std::sqrt(static_cast<double>(shared::stress_on_slope(shared::STEEPEST_STRESS)));
+    for (const sim::Sand& sand : wind->sand) {
+        const double threshold = sand.erodes ? sim::threshold_friction_velocity(sand, wind->air_density, gravity) : 0.0;
+        if (threshold > strongest) {
+            return fmt::format("the wind takes none of the sand with grains of {:.4g} m (grain_size): it would need a "
+                               "wind.friction_velocity of {:.4g} m/s, and {:.4g} m/s on the steepest slopes",
+                               sand.grain_size, threshold, threshold * wind->friction_velocity / strongest);
+        }
+    }
+    return std::nullopt;
 }
 
 } // namespace
@@ -186,7 +226,7 @@ std::vector<std::string> scene_warnings(const Scene& scene, const ParticleSet& p
     for (const std::optional<std::string>& warning :
          {coarse_positions(scene), idle_viscosity(scene), idle_tension(scene), unread_tension(scene),
           idle_contact_angle(scene), unmeasured_tension(scene), idle_clamp(scene), idle_lid(scene), endless_fall(scene),
-          shifted_surface(scene, particles), wet_sand(scene)}) {
+          shifted_surface(scene, particles), wet_sand(scene), idle_anchor(scene), idle_wind(scene)}) {
         if (warning) {
             warnings.push_back(*warning);
         }

@@ -161,13 +161,17 @@ std::optional<shared::HostedSplat> host(const SolidParticles& solids, double spa
         const glm::dvec3 way = solids.position((*hosts)[k]) - x;
         weight[k] = 1.0 / (glm::dot(way, way) + 0.01 * spacing * spacing);
     }
-    return shared::HostedSplat{.host = {(*hosts)[0], (*hosts)[1], (*hosts)[2]},
-                               .weight = weight / (weight.x + weight.y + weight.z),
-                               .offset = to_frame * (x - a),
-                               .normal = to_frame * normal,
-                               .edge = to_frame * edge.way,
-                               .edge_distance =
-                                   std::isfinite(edge.distance) ? static_cast<float>(edge.distance) : 1e9f};
+    return shared::HostedSplat{
+        .host = {(*hosts)[0], (*hosts)[1], (*hosts)[2]},
+        .weight = weight / (weight.x + weight.y + weight.z),
+        .offset = to_frame * (x - a),
+        .normal = to_frame * normal,
+        .edge = to_frame * edge.way,
+        .edge_distance = std::isfinite(edge.distance) ? static_cast<float>(edge.distance) : 1e9f,
+        .color = {},
+        .radius = 0.0f,
+        .wet_albedo = 1.0f,
+        .span = static_cast<float>(std::max({glm::length(first), glm::length(second), glm::length(second - first)}))};
 }
 
 /// Splat number `splat` covers the particles below it that no nearer one covers. nearest: m^2, by id.
@@ -204,6 +208,7 @@ shared::SolidSplatParams solid_splat_params(const Scene& scene)
         const Material& material = materials.materials[i];
         params.latent_heat[i] = material.melts ? material.thermal.latent_heat : 0.0f;
         params.color[i] = material.solid_color;
+        params.is_sand[i] = material.wind_erodes ? 1 : 0;
         params.wet_albedo[i] = wet_albedo_of(material);
         params.progress |= material.melts ? shared::PROGRESS_MELTING : 0u;
         params.progress |= material.erosion.erodes ? shared::PROGRESS_DAMAGE : 0u;

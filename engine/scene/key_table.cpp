@@ -259,7 +259,7 @@ std::vector<SceneKey> make_scene_keys()
         k("domain.min", FIELD(domain.min), "m", PLACE, "lowest corner of the box that holds everything"),
         k("domain.max", FIELD(domain.max), "m", PLACE, "highest corner"),
         k("domain.dimensions", FIELD(domain.dimensions), "", Range{2, 3}, "2: everything lies in the plane z = 0 and is seen from the front; a block is its rectangle in x and y, a sphere a disk, z of places means nothing, masses and forces are per meter of depth"),
-        flag<Scene>("domain.walls", FIELD(domain.walls), "all faces are walls; without, leaving the domain ends the run"),
+        flag<Scene>("domain.walls", FIELD(domain.walls), "all faces are walls; without, leaving the domain ends the run, but for dust and sand in the air"),
         k("domain.periodic", FIELD(domain.periodic), "", Range{}, "axes along which the domain has no walls but begins again: what leaves through one border comes in through the other"),
         k("domain.wall_viscosity", FIELD(domain.wall_viscosity), "Pa s", Range{0, 1e4}, "of fluid against walls; 0 lets it slip freely, twice the fluid's holds it fast"),
         k("domain.contact_angle", FIELD(domain.contact_angle), "degrees", Range{0, 180}, "of fluid with surface tension at the walls, inside the fluid: below 90 it wets them (adhesion), above it beads off"),
@@ -345,6 +345,7 @@ std::vector<SceneKey> make_scene_keys()
         flag<Scene>("render.floor", FIELD(render.floor), "a ground plane at the domain's lowest face; none in two dimensions"),
         k("render.splat_radius", FIELD(render.splat_radius), "spacings", Range{0.1, 5}, "of a fluid particle's sphere"),
         k("render.blend_time", FIELD(render.blend_time), "s", Range{0, 1e6}, "in which what was solid takes on the color of its fluid"),
+        k("render.light", FIELD(render.light), "", PLACE, "the direction from the scene to the light; of any length but 0"),
         k("render.background", FIELD(render.background), "linear RGB", UNIT, "color behind everything"),
     };
 }

@@ -318,6 +318,7 @@ struct RenderSettings {
     bool floor = true;                    ///< a ground plane at the domain's lowest face
     float splat_radius = 0.6f;            ///< of a fluid sphere, in particle spacings
     float blend_time = 0.4f;              ///< s, in which what was solid takes on the color of its fluid
+    glm::vec3 light{0.45f, 1.0f, 0.35f};  ///< from the scene to the light, of any length but 0
     glm::vec3 background{0.93f, 0.95f, 0.97f};
 };
 

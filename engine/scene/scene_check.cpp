@@ -168,6 +168,9 @@ private:
     void check_camera() const
     {
         const CameraSettings& camera = scene_.camera;
+        if (scene_.render.light == glm::vec3(0.0f)) {
+            fail("render.light", "is [0, 0, 0], but must have a direction");
+        }
         if (camera.up == glm::vec3(0.0f)) {
             fail("camera.up", "is [0, 0, 0], but must have a direction");
         }
@@ -256,6 +259,10 @@ private:
         const glm::vec3& gravity = scene_.physics.gravity;
         if (gravity == glm::vec3(0.0f)) {
             fail("physics.gravity", "is [0, 0, 0], but sand needs some to come down");
+        }
+        if (gravity.x != 0.0f || gravity.y > 0.0f || gravity.z != 0.0f) {
+            fail("physics.gravity", "is {}, but sand (wind_erodes) comes down along y: it must be [0, -g, 0]",
+                 text(gravity));
         }
         if (glm::length(glm::cross(scene_.wind.direction, gravity)) == 0.0f) {
             fail("wind.direction", "does not lead over the ground: it is along gravity, or has no length");

@@ -40,6 +40,7 @@ public:
     /// shared::VisibilityParams and the map itself, uint a texel: for passes that include include/visibility.glsl.
     [[nodiscard]] const gpu::Buffer& params() const { return params_buffer_; }
     [[nodiscard]] const gpu::Buffer& map() const { return map_; }
+    [[nodiscard]] glm::uvec2 size() const { return {params_.width, params_.height}; }
     [[nodiscard]] std::uint32_t texels() const { return params_.width * params_.height; }
 
     [[nodiscard]] std::uint64_t device_bytes() const { return visibility_.size() + map_.size(); }

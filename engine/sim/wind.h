@@ -90,6 +90,11 @@ public:
     [[nodiscard]] double slide_time() const { return slide_time_; }
 
     [[nodiscard]] const shared::WindParams& params() const { return params_; }
+    /// The map from above, and of each of its texels the ground, vec4: height and slope of its plane, and its top (m
+    /// above the floor); and the id of the solid particle on top, uint, 0xffffffff where there is none.
+    [[nodiscard]] const Visibility& from_above() const { return from_above_; }
+    [[nodiscard]] const gpu::Buffer& ground() const { return ground_; }
+    [[nodiscard]] const gpu::Buffer& top_id() const { return top_id_; }
     /// By id: two-floats, 1 where a particle is about to hop.
     [[nodiscard]] const gpu::Buffer& damage() const { return damage_; }
     /// By id: uint, 1 where it has come down and waits to be solid.

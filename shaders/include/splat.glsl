@@ -154,6 +154,7 @@ vec4 disc_bound(SplatCamera camera, vec3 center, vec3 normal, float radius)
 
 // --- the quad that covers a bound ----------------------------------------------------------------------------------------
 
+const vec4 NO_QUAD = vec4(2.0, 2.0, 0.0, 1.0); // outside of the screen
 const float BOUND_MARGIN = 0.25; // samples: more than rasterization rounds positions by
 
 // The quad around a bound, (low x, low y, high x, high y) in ndc, clipped to the screen; false where nothing of it is there.
@@ -175,10 +176,13 @@ float quad_depth(SplatCamera camera, float nearest)
     return min(depth_at(camera, max(nearest, camera.near_distance)) * slack, 1.0);
 }
 
-// Clip-space position of one of a quad's six vertices: 0 1 2, 2 1 3.
+// Which corner each of a quad's six vertices is: 0 1 2, 2 1 3.
+uint corner_of_vertex(uint vertex) { return vertex < 3u ? vertex : (vertex == 3u ? 2u : (vertex == 4u ? 1u : 3u)); }
+
+// Clip-space position of one of them.
 vec4 quad_vertex(vec4 quad, float depth, uint vertex)
 {
-    uint corner = vertex < 3u ? vertex : (vertex == 3u ? 2u : (vertex == 4u ? 1u : 3u));
+    uint corner = corner_of_vertex(vertex);
     return vec4((corner & 1u) != 0u ? quad.z : quad.x, (corner & 2u) != 0u ? quad.w : quad.y, depth, 1.0);
 }
 

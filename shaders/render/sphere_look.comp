@@ -69,7 +69,9 @@ void main()
     if (i >= count) {
         return;
     }
-    float gloss = params.color_mode != COLOR_MATERIAL                    ? GLOSS_MATTE
+    bool is_puff = params.sized != 0u && is_flying_sand(attributes[i]);
+    float gloss = is_puff                                        ? GLOSS_PUFF
+                  : params.color_mode != COLOR_MATERIAL                    ? GLOSS_MATTE
                   : particle_state(attributes[i]) == STATE_FLUID ? GLOSS_WET
                                                                  : GLOSS_DRY;
     sphere[i] = vec4(position[i].xyz, radius_of(i));

@@ -6,8 +6,9 @@
 
 layout(push_constant, scalar) uniform Push { QuadPush push; };
 layout(set = 0, binding = 0, scalar) readonly buffer Spheres { vec4 spheres[]; }; // of sphere_look.comp
-layout(set = 0, binding = 1, scalar) writeonly buffer Quads { vec4 quads[]; };    // two for each: see quad_on_screen
-layout(set = 0, binding = 2, scalar) writeonly buffer Flags { uint flags[]; };    // 1 where there is one
+layout(set = 0, binding = 1, scalar) readonly buffer Looks { vec4 looks[]; };
+layout(set = 0, binding = 2, scalar) writeonly buffer Quads { vec4 quads[]; };    // two for each: see quad_on_screen
+layout(set = 0, binding = 3, scalar) writeonly buffer Flags { uint flags[]; };    // 1 where there is one
 
 void main()
 {
@@ -21,5 +22,6 @@ void main()
     bool is_there = quad_on_screen(push.camera, sphere_bound(push.camera, center, radius), quad);
     quads[2u * i] = quad;
     quads[2u * i + 1u] = vec4(quad_depth(push.camera, -center.z - radius));
-    flags[i] = radius > 0.0 && is_there ? 1u : 0u;
+    bool is_seen = looks[i].w != GLOSS_PUFF || push.puffs != 0u;
+    flags[i] = radius > 0.0 && is_seen && is_there ? 1u : 0u;
 }

@@ -36,8 +36,9 @@ void main()
     float recession = RECESSION * params.spacing * mean_progress;
     vec3 center = a.xyz + frame * splat.offset - recession * normal;
     float radius = splat.radius * (1.0 - smooth_ramp(DYING_FROM, 1.0, worst_progress));
-    if (worst_progress >= 1.0) {
-        hosted[i].radius = 0.0;
+    float stretch = max(max(length(first), length(second)), length(second - first));
+    if (worst_progress >= 1.0 || stretch > MOST_STRETCH * splat.span) {
+        hosted[i].radius = radius = 0.0;
     }
     float wetness = dot(splat.weight, vec3(kept[splat.host.x].x, kept[splat.host.y].x, kept[splat.host.z].x));
 

@@ -12,12 +12,13 @@ SHARED_CONSTANT uint COLOR_SPEED = 2u;
 SHARED_CONSTANT uint COLOR_PRESSURE = 3u;
 SHARED_CONSTANT uint COLOR_NORMAL = 4u;   // world-space normal n as linear color (n + 1)/2, never lit
 
-// What a sample of the visibility image shows: kind in the upper two bits, index of particle or disc below.
+// What a sample of the visibility image shows: kind in the upper bits, index of particle, disc or triangle below.
 SHARED_CONSTANT uint SURFACE_NONE = 0u;
 SHARED_CONSTANT uint SURFACE_SPHERE = 1u;
 SHARED_CONSTANT uint SURFACE_DISC = 2u;
 SHARED_CONSTANT uint SURFACE_LINE = 3u;
-SHARED_CONSTANT uint SURFACE_SHIFT = 30u;
+SHARED_CONSTANT uint SURFACE_SAND = 4u;
+SHARED_CONSTANT uint SURFACE_SHIFT = 28u;
 
 // Discs, in the w of their normals. Flat ones are seen from both sides, the others from outside.
 SHARED_CONSTANT float DISC_FLAT = 0.0f;
@@ -28,6 +29,7 @@ SHARED_CONSTANT float DISC_EDGED = 2.0f; // flat, and cut off along a line
 SHARED_CONSTANT float GLOSS_DRY = 0.0f;
 SHARED_CONSTANT float GLOSS_WET = 1.0f;
 SHARED_CONSTANT float GLOSS_MATTE = 2.0f;
+SHARED_CONSTANT float GLOSS_PUFF = 3.0f; // dry, of sand in the air, of which specks are seen
 
 // In radii of a bent disc: how far the surface may be off its plane.
 SHARED_CONSTANT float BENT_OFF = 0.15f;
@@ -65,6 +67,7 @@ struct SplatPush {
 struct QuadPush {
     SplatCamera camera;
     uint count;
+    uint puffs; // 1: sand in the air is seen; 0: it casts no shadow
 };
 
 // What all passes of a frame read.

@@ -12,7 +12,8 @@
 // with the particle's exposed area, A / d^2 = 2 d |grad c|, and goes with the particle.
 //
 // Surface splats lie on the solid's own shape, whose edges are sharp, a little outside of the particles' ones. Each belongs to the
-// three solid particles below it: it moves and turns with them, recedes by their mean progress, and is gone with the first of them.
+// three solid particles below it: it moves and turns with them, recedes by their mean progress, and is gone with the first of them, or
+// when they part, as those of sand that slides.
 // At a sharp edge its disc is cut off, where the next face is, which recedes as well. Below it, particle splats keep out of its
 // way, for the steps of a lattice are not the shape that it fills; there are none before something has gone nearby, and they come up as it shrinks. Whose host was ever freed is gone for good.
 //
@@ -45,6 +46,7 @@ SHARED_CONSTANT uint NO_COVER = 0xffffffffu;         // of a particle without on
 SHARED_CONSTANT float SURFACE_SPLAT_SPACING = 0.5f;  // of surface splats, in spacings
 SHARED_CONSTANT float SURFACE_SPLAT_RADIUS = 1.1f;   // in spacings of their own
 SHARED_CONSTANT float RECESSION = 1.0f;              // spacings, of a surface splat whose hosts are about to go
+SHARED_CONSTANT float MOST_STRETCH = 1.5f;            // spans, of a surface splat whose hosts have parted: then it is gone
 SHARED_CONSTANT float DYING_FROM = 0.5f;             // progress beyond which splats shrink
 
 // Spacings: a disc bends as those so near to it do.
@@ -68,6 +70,7 @@ struct SolidSplatParams {
     float latent_heat[MAX_MATERIALS]; // J/kg; 0 where it does not melt
     float front_time[MAX_MATERIALS];  // s, in which a front crosses a spacing; 0 where there is none
     vec3 color[MAX_MATERIALS];        // linear RGB, of the solid
+    uint is_sand[MAX_MATERIALS];      // 1: the wind moves it, and a sheet may cover it (sand_surface.h)
     float wet_albedo[MAX_MATERIALS];  // by which its color is multiplied where it is wet
 };
 
@@ -91,6 +94,7 @@ struct HostedSplat {
     vec3 color;  // linear RGB
     float radius; // m
     float wet_albedo;
+    float span; // m, the longest way between two of its hosts at the start
 };
 
 // 0 .. 1, steady and without corners (Hermite), of x from low to high.

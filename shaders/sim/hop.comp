@@ -1,8 +1,8 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 // Sand that the wind has taken, or that falls off a slope, flies on by a step, through the wind's logarithmic profile, until it
-// comes down: then it waits for the next look (alight.comp). A column that is much higher is in its way: it falls before it. What
-// has left the domain is dead. Twin: engine/reference/wind.cpp.
+// comes down: then it waits for the next look (alight.comp). A column that is much higher is in its way: it falls before it. So
+// is a wall. What has left the domain where there is none is dead. Twin: engine/reference/wind.cpp.
 #include "include/invocation.glsl"
 #include "shared/emission.h"
 #include "shared/particle_state.h"
@@ -29,6 +29,11 @@ vec3 air_velocity(float above_ground)
     return wind.friction_velocity / KARMAN * log(max(above_ground / wind.roughness_length, 1.0)) * wind.direction;
 }
 
+const float ENDLESS = 1e30; // m
+
+bvec3 walls_below() { return notEqual(uvec3(params.wall_mask) & uvec3(1u, 4u, 16u), uvec3(0u)); }
+bvec3 walls_above() { return notEqual(uvec3(params.wall_mask) & uvec3(2u, 8u, 32u), uvec3(0u)); }
+
 void main()
 {
     uint i = invocation_index();
@@ -45,12 +50,15 @@ void main()
 
     vec3 next = wrapped(x + params.dt * v);
     next += max(0.5 * d - height_of(next), 0.0) * wind.up; // the floor is no way out
-    bool inside = all(greaterThanEqual(next, params.domain_min)) && all(lessThanEqual(next, params.domain_max));
     bool blocked = ground_at(texel_at(next)).top > height_of(next) + HIGHEST_CLIMB * d;
     if (blocked) {
         v = dot(v, wind.up) * wind.up;
         next = x + params.dt * v;
     }
+    vec3 within = clamp(next, mix(vec3(-ENDLESS), params.domain_min, walls_below()), mix(vec3(ENDLESS), params.domain_max, walls_above()));
+    v = mix(v, vec3(0.0), notEqual(within, next));
+    next = within;
+    bool inside = all(greaterThanEqual(next, params.domain_min)) && all(lessThanEqual(next, params.domain_max));
     float lowest = ground_at(texel_at(next)).top + d;
     bool lands = inside && height_of(next) <= lowest && dot(v, wind.up) <= 0.0;
     next += lands ? (lowest - height_of(next)) * wind.up : vec3(0.0);

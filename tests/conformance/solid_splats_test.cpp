@@ -227,7 +227,8 @@ protected:
                                      .edge_distance = 0.01f,
                                      .color = {0.1f, 0.2f, 0.3f},
                                      .radius = 0.5f * d,
-                                     .wet_albedo = 0.7f});
+                                     .wet_albedo = 0.7f,
+                                     .span = 1.3f * d}); // rows end between some of them
         }
         return solids;
     }
@@ -282,13 +283,26 @@ TEST_F(SolidSplatsTest, TheDeviceConformsToTheTwin)
 TEST_F(SolidSplatsTest, WhoseHostWasFreedIsGoneForGood)
 {
     Solids solids = layered_block({});
-    solids.hosted.push_back({.host = {0, 1, 9}, .weight = glm::vec3(1.0f / 3.0f), .normal = {0, 0, 1}, .radius = d});
+    solids.hosted.push_back(
+        {.host = {0, 1, 9}, .weight = glm::vec3(1.0f / 3.0f), .normal = {0, 0, 1}, .radius = d, .span = 2.0f * d});
     solids.cover[in_middle(0)] = 0;
     EXPECT_EQ(on_device(solids, 2).hosted[0].radius, static_cast<double>(d));
     EXPECT_EQ(on_device(solids, 2, 0.9).hosted[0].radius, static_cast<double>(d));
     EXPECT_EQ(on_device(solids, 2, 1.0).hosted[0].radius, 0.0);
     EXPECT_EQ(on_device(solids, 2).particle[in_middle(0)].radius, 0.0); // covered
     EXPECT_GT(on_device(solids, 2, 1.0).particle[in_middle(0)].radius, 0.0);
+}
+
+// As those of sand that slides: none is stretched over many spacings.
+TEST_F(SolidSplatsTest, WhoseHostsPartIsGone)
+{
+    Solids solids = layered_block({});
+    solids.hosted.push_back(
+        {.host = {0, 1, 9}, .weight = glm::vec3(1.0f / 3.0f), .normal = {0, 0, 1}, .radius = d, .span = 1.5f * d});
+    solids.particles.position[1].x += 0.5f * d;
+    EXPECT_EQ(on_device(solids).hosted[0].radius, static_cast<double>(d));
+    solids.particles.position[1].x += 1.0f * d;
+    EXPECT_EQ(on_device(solids).hosted[0].radius, 0.0);
 }
 
 TEST_F(SolidSplatsTest, InteriorParticlesHaveNoneAndLoneOnesAreBalls)

@@ -24,12 +24,13 @@ constexpr std::uint32_t samples = 2;
 
 struct Case {
     const char* scene;
-    float spacing;   ///< m, much coarser than the scene's own
-    double start;    ///< s, of the first frame
-    double interval; ///< s, between frames
-    double holes;    ///< most samples in a million of the solid
-    double mean;     ///< most of the mean change from frame to frame, in 8-bit steps
-    double extreme;  ///< and of that of the thousandth pixel that changes most
+    float spacing;      ///< m, much coarser than the scene's own
+    double start;       ///< s, of the first frame
+    double interval;    ///< s, between frames
+    double holes;       ///< most samples in a million of the solid
+    double mean;        ///< most of the mean change from frame to frame, in 8-bit steps
+    double extreme;     ///< and of that of the thousandth pixel that changes most
+    float slack = 0.0f; ///< spacings, by which the surface may lie behind a particle: of sand it is a mean
 };
 
 void PrintTo(const Case& which, std::ostream* out)
@@ -96,7 +97,7 @@ public:
 
     /// Of the samples behind which such particles lie, how many in a million show what lies behind the first of them:
     /// others of the inside, or the background.
-    [[nodiscard]] double holes()
+    [[nodiscard]] double holes(float slack)
     {
         static_cast<void>(paint());
         const std::vector<float> seen = painter_.renderer().capture_distance();
@@ -124,7 +125,7 @@ public:
                 }
             }
             is_solid[i] = std::isfinite(nearest) ? 1 : 0;
-            is_hole[i] = seen[i] > nearest ? 1 : 0;
+            is_hole[i] = seen[i] > nearest + slack * scene_.particles.spacing ? 1 : 0;
         });
         const auto solid_count = static_cast<double>(std::ranges::count(is_solid, 1));
         return 1e6 * static_cast<double>(std::ranges::count(is_hole, 1)) / std::max(solid_count, 1.0);
@@ -179,10 +180,10 @@ class SolidFramesTest : public GpuTest, public testing::WithParamInterface<Case>
 TEST_P(SolidFramesTest, NoHoleShowsTheInside)
 {
     Show show(context(), GetParam());
-    double worst = show.holes();
+    double worst = show.holes(GetParam().slack);
     for (int frame = 0; frame < 12; ++frame) {
         show.simulation().advance_by(0.1);
-        const double holes = show.holes();
+        const double holes = show.holes(GetParam().slack);
         worst = std::max(worst, holes);
     }
     RecordProperty("holes", std::to_string(worst));
@@ -205,6 +206,7 @@ TEST_P(SolidFramesTest, NothingPops)
         worst.extreme = std::max(worst.extreme, its.extreme);
         before = now;
     }
+    RecordProperty("mean", std::to_string(worst.mean));
     EXPECT_LE(worst.mean, GetParam().mean);
     EXPECT_LE(worst.extreme, GetParam().extreme);
 }
@@ -214,18 +216,78 @@ TEST_P(SolidFramesTest, NothingPops)
 //   reaches into
 //            its body, the others' where bodies touch. With particle splats that wait until surface splats are gone
 //            there are 23817 on the cube.
+//            The dune's are 7349, along its outline, where single columns stand above the mean that is seen.
 //   changes  0.087/21, 0.175/31, 0.124/56, 0.281/67, 0.058/25, 0.041/16: jet and river wear a particle away within tens
 //   of
 //            milliseconds. With solids that are whole until they are freed it is 0.103/29, .../52, .../92, .../7,
-//            .../99, .../127 (the river frees none meanwhile), and 69 on the cube where surface splats go at once.
+//            .../99, .../127 (the river frees none meanwhile), and 69 on the cube where surface splats go at once. The
+//            dune's are 0.089/22, and without its sheet 0.651/61.
 INSTANTIATE_TEST_SUITE_P(Scenes, SolidFramesTest,
                          testing::Values(Case{"melt_cube", 0.025f, 0.5, 0.005, 200, 0.12, 28},
                                          Case{"melt_teapot", 0.025f, 0.3, 0.005, 18'000, 0.23, 40},
                                          Case{"jet_on_block", 0.04f, 0.6, 0.005, 4000, 0.17, 70},
                                          Case{"river_bed", 0.05f, 0.8, 0.005, 5500, 0.36, 85},
                                          Case{"vanish", 0.04f, 0.6, 0.005, 4000, 0.08, 33},
-                                         Case{"dissolve", 0.05f, 0.6, 0.005, 8500, 0.06, 22}),
+                                         Case{"dissolve", 0.05f, 0.6, 0.005, 8500, 0.06, 22},
+                                         Case{"dune", 0.045f, 0.3, 0.005, 9500, 0.12, 28, 2.0f}),
                          [](const auto& its) { return std::string(its.param.scene); });
+
+/// Of the normals that a picture of COLOR_NORMAL shows of ground, from pixel to pixel along rows.
+struct Roughness {
+    std::size_t pixels = 0;
+    double mean = 0.0;    ///< of the length of their difference
+    double extreme = 0.0; ///< and of the hundredth pixel where it is greatest
+};
+
+Roughness roughness(const Image& image)
+{
+    const auto normal = [&](std::size_t pixel) {
+        glm::dvec3 n;
+        for (int c = 0; c < 3; ++c) {
+            const double value = image.rgba[4 * pixel + static_cast<std::size_t>(c)] / 255.0;
+            n[c] = 2.0 * (value <= 0.04045 ? value / 12.92 : std::pow((value + 0.055) / 1.055, 2.4)) - 1.0;
+        }
+        return n;
+    };
+    const auto is_ground = [](const glm::dvec3& n) {
+        return n.y > 0.6 && std::abs(glm::length(n) - 1.0) < 0.02; // neither background nor part of it
+    };
+    std::vector<double> differences;
+    for (std::size_t i = 0; i + 1 < std::size_t{image.width} * image.height; ++i) {
+        const glm::dvec3 a = normal(i);
+        const glm::dvec3 b = normal(i + 1);
+        if ((i + 1) % image.width != 0 && is_ground(a) && is_ground(b)) {
+            differences.push_back(glm::distance(a, b));
+        }
+    }
+    std::ranges::sort(differences);
+    Roughness found{.pixels = differences.size()};
+    for (const double each : differences) {
+        found.mean += each / static_cast<double>(differences.size());
+    }
+    found.extreme = differences.empty() ? 0.0 : differences[differences.size() - 1 - differences.size() / 100];
+    return found;
+}
+
+class SandFramesTest : public GpuTest {};
+
+// The surface of sand is that of its columns, without their steps, at the start and when grains have come and gone. A
+// software device measures 0.019 and 0.062, most of it the steps of 8 bits; with discs of particles instead of a sheet
+// it is 0.047 and 0.32.
+TEST_F(SandFramesTest, ADuneIsSmooth)
+{
+    Show show(context(), Case{.scene = "dune", .spacing = 0.045f});
+    show.painter().settings().color_mode = shared::COLOR_NORMAL;
+    show.painter().settings().splat_radius = 1e-6f; // no sand in the air
+    for (const double time : {0.0, 0.5}) {
+        show.simulation().advance_by(time);
+        const Roughness found = roughness(show.paint());
+        EXPECT_GT(found.pixels, 1000u);
+        RecordProperty("rough", std::to_string(found.mean) + " " + std::to_string(found.extreme));
+        EXPECT_LT(found.mean, 0.024) << "after " << time << " s";
+        EXPECT_LT(found.extreme, 0.08) << "after " << time << " s";
+    }
+}
 
 } // namespace
 } // namespace meltpoint

@@ -128,6 +128,29 @@ TEST(SceneWarnings, AFallWithoutEnd)
     EXPECT_EQ(warning_of(scene), "");
 }
 
+TEST(SceneWarnings, SandThatNothingMovesOrHolds)
+{
+    Scene scene;
+    SolidBody sand;
+    sand.shape = BlockShape{glm::vec3(0.2f), glm::vec3(0.8f)};
+    sand.wind_erodes = true;
+    scene.solids.push_back(sand);
+    scene.solver = Solver::Dfsph;
+    scene.wind.friction_velocity = 0.5f;
+    EXPECT_EQ(warning_of(scene), ""); // there is no fluid that it could meet
+    scene.solids[0].anchor = SolidAnchor::None;
+    EXPECT_TRUE(warning_of(scene).starts_with("solid.0.anchor does nothing")) << warning_of(scene);
+    scene.solids[0].anchor = SolidBody{}.anchor;
+    scene.wind.flux = 0.0f;
+    EXPECT_TRUE(warning_of(scene).starts_with("wind.flux is 0")) << warning_of(scene);
+    scene.wind.flux = 1.8f;
+    scene.solids[0].erosion.grain_size = 5.0f;
+    EXPECT_TRUE(warning_of(scene).starts_with("the wind takes none of the sand with grains of 5 m"))
+        << warning_of(scene);
+    scene.wind.friction_velocity = 0.0f;
+    EXPECT_EQ(warning_of(scene), "");
+}
+
 TEST(SceneWarnings, ShiftingAtAFreeSurface)
 {
     Scene scene = full_square();

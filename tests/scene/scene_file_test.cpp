@@ -192,6 +192,16 @@ TEST(SceneFile, NamesContradictions)
               "test.toml:2: key \"particles.spacing\" is 2.5 m, but must be at most the domain's smallest extent, 2 m");
     EXPECT_EQ(error_with_block("[camera]\nup = [0, 0, 0]"),
               "test.toml:2: key \"camera.up\" is [0, 0, 0], but must have a direction");
+    EXPECT_EQ(error_of("[render]\nlight = [0, 0, 0]"),
+              "test.toml:2: key \"render.light\" is [0, 0, 0], but must have a direction");
+    for (const char* gravity : {"[0, 9.81, 0]", "[-9.81, -1, 0]", "[0, -1, 0.1]"}) { // not down
+        EXPECT_NE(error_of(std::string("solver = \"dfsph\"\n[physics]\ngravity = ") + gravity +
+                           "\n[[solid]]\nshape = \"block\"\nmin = [0.2, 0.2, 0.2]\nmax = [0.6, 0.6, 0.6]\n"
+                           "wind_erodes = true\n")
+                      .find("but sand (wind_erodes) comes down along y: it must be [0, -g, 0]"),
+                  std::string::npos)
+            << gravity;
+    }
     EXPECT_EQ(error_with_block("[camera]\neye = [1, 2, 3]\ntarget = [1, 2, 3]"),
               "test.toml:3: key \"camera.target\" is [1, 2, 3], but must differ from camera.eye");
     EXPECT_NE(error_with_block("[camera]\neye = [0, 5, 0]\ntarget = [0, 0, 0]").find("must not be parallel"),
