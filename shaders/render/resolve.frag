@@ -239,7 +239,11 @@ vec3 sample_color(uint visible, vec2 fragment)
     } else if (kind == SURFACE_DISC) {
         surface = disc_surface(index, ray);
     } else if (kind == SURFACE_SAND) {
-        surface = sand_surface(index, ray);
+        // One round, or none, as in disc.vert: who runs many pixels at once leaves it out where none of them shows sand.
+        uint rounds = kind == SURFACE_SAND ? 1u : 0u;
+        for (uint k = 0u; k < rounds; ++k) {
+            surface = sand_surface(index, ray);
+        }
     } else if (kind == SURFACE_LINE) {
         return params.line_color;
     } else if (floor_hit(ray, surface.point, presence, surface.albedo)) {
