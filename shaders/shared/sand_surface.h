@@ -38,10 +38,10 @@ SHARED_CONSTANT float GRAINS_A_SPACING = 10.0f; // grains of sand as they are se
 SHARED_CONSTANT float GRAIN_CONTRAST = 0.05f;   // by how much their colors differ from the mean
 
 // A puff, in radii of a particle, and in spacings the height above the sheet at which it has reached that size.
-SHARED_CONSTANT float PUFF_RADIUS = 3.6f;
+SHARED_CONSTANT float PUFF_RADIUS = 2.5f;
 SHARED_CONSTANT float PUFF_HEIGHT = 4.0f;
-SHARED_CONSTANT float SPECKS_A_RADIUS = 17.0f; // specks side by side
-SHARED_CONSTANT float PUFF_COVERAGE = 0.16f;   // in its middle: share of its specks that are there
+SHARED_CONSTANT float SPECKS_A_RADIUS = 12.0f; // specks side by side
+SHARED_CONSTANT float PUFF_COVERAGE = 0.20f;   // in its middle: share of its specks that are there
 
 // Of two whole numbers and a seed, 0 to 1, as random as they are (PCG 3D; Jarzynski & Olano 2020).
 SHARED_FUNCTION float grain_share(uint x, uint y, uint seed)
