@@ -162,7 +162,7 @@ std::vector<Ground> ground(const Settings& settings, const shared::VisibilityPar
 
 SandChanges look_at_sand(const Settings& settings, const SandScene& scene, State& state, SandState& sand,
                          std::span<const glm::dvec4> exposure, std::span<const double> visibility, double seconds,
-                         bool slides)
+                         double ahead, bool slides)
 {
     const shared::WindParams& wind = scene.wind;
     const std::size_t texels = scene.ground.size();
@@ -199,8 +199,10 @@ SandChanges look_at_sand(const Settings& settings, const SandScene& scene, State
         const bool faces_up = glm::dot(glm::dvec3(exposure[i]), glm::dvec3(wind.up)) > 0.0;
         const double share = stress > static_cast<double>(its.threshold) && faces_up ? std::pow(stress, 1.5) : 0.0;
         double& damage = sand.damage[state.id[i]];
-        damage += static_cast<double>(its.pick_up) * share * visibility[i] * exposure[i].w * seconds / state.mass[i];
-        if (damage >= 1.0 && columns.top_id[index_of(scene, here(i))] == state.id[i]) {
+        const double taken =
+            static_cast<double>(its.pick_up) * share * visibility[i] * exposure[i].w * seconds / state.mass[i];
+        damage += taken;
+        if (damage + ahead * taken >= 1.0 && columns.top_id[index_of(scene, here(i))] == state.id[i]) {
             state.attributes[i] = shared::freed_as(state.attributes[i], shared::STATE_DUST, shared::CAUSE_WIND);
             state.velocity[i] = static_cast<double>(its.launch_speed) *
                                 static_cast<double>(shared::launch_share(state.id[i])) * glm::dvec3(wind.up);

@@ -47,11 +47,12 @@ struct SandChanges {
 };
 
 /// Twin of a look: sim/column_top.comp, wind_erode.comp, alight.comp, slide.comp, slide_apply.comp (these two where it
-/// `slides`) and land.comp. The wind blows for `seconds` of erosion; exposure (reference/exposure.h) and visibility
+/// `slides`) and land.comp. The wind has blown for `seconds` of erosion, and sand hops that
+/// will be taken before it has blown `ahead` times as long; exposure (reference/exposure.h) and visibility
 /// (reference/visibility.h, for the wind) are of each particle.
 SandChanges look_at_sand(const Settings& settings, const SandScene& scene, State& state, SandState& sand,
                          std::span<const glm::dvec4> exposure, std::span<const double> visibility, double seconds,
-                         bool slides);
+                         double ahead, bool slides);
 
 /// Twin of sim/hop.comp: sand in the air takes a step of params.dt.
 void move_sand(const Settings& settings, const SandScene& scene, State& state, SandState& sand);

@@ -248,7 +248,8 @@ void Simulation::erode(double time)
                                    erosion_->changes(), time, seconds, next_seconds);
     }
     if (wind_) {
-        wind_->record_changes(commands, params_buffer_, particles_, *exposure_, erosion_->changes(), seconds);
+        wind_->record_changes(commands, params_buffer_, particles_, *exposure_, erosion_->changes(), seconds,
+                              next_seconds);
     }
     if (emission_) {
         emission_->record_calls(commands, params_buffer_, particles_, erosion_->release_time(), erosion_->changes(),

@@ -188,7 +188,7 @@ VisibilitySettings wind_view(const shared::WindParams& wind)
 Wind::Wind(const gpu::Context& context, const shared::SphParams& params, const WindSettings& settings)
     : params_(wind_params(settings, params)), time_scale_(settings.time_scale), spacing_(params.spacing),
       slide_time_(spacing_time(params)),
-      longest_look_(std::min(0.025 * shortest_erosion(params_, params, settings.time_scale), slide_time_)),
+      longest_look_(std::min(0.1 * shortest_erosion(params_, params, settings.time_scale), slide_time_)),
       visibility_(context, wind_view(params_), params), from_above_(context, ground_view(params_), params),
       ground_kernel_(context, "ground", sim_ground_comp), column_top_(context, "column_top", sim_column_top_comp),
       erode_(context, "wind_erode", sim_wind_erode_comp), slide_(context, "slide", sim_slide_comp),
@@ -227,13 +227,15 @@ void Wind::record_surface(gpu::Commands& commands, const gpu::Buffer& params, co
 }
 
 void Wind::record_changes(gpu::Commands& commands, const gpu::Buffer& params, const ParticleBuffers& particles,
-                          const Exposure& exposure, const gpu::Buffer& changes, double seconds)
+                          const Exposure& exposure, const gpu::Buffer& changes, double seconds, double next_seconds)
 {
     const gpu::Scope scope(commands, "wind");
     const std::uint32_t still = particles.count - particles.moving;
     commands.fill(way_, shared::WAY_NONE);
     commands.fill(claim_, nobody);
-    commands.dispatch(erode_, still, static_cast<float>(seconds * time_scale_),
+    const shared::WindPush push{.seconds = static_cast<float>(seconds * time_scale_),
+                                .ahead = static_cast<float>(seconds > 0.0 ? 0.5 * next_seconds / seconds : 0.0)};
+    commands.dispatch(erode_, still, push,
                       {read(params), read(params_buffer_), read(from_above_.params()), read(ground_),
                        read(particles.id), read(exposure.exposure()), read(visibility_.visibility()),
                        read_write(damage_), read_write(particles.attributes), read_write(particles.position),

@@ -72,18 +72,19 @@ public:
     void record_surface(gpu::Commands& commands, const gpu::Buffer& params, const ParticleBuffers& particles,
                         const Exposure& exposure) const;
 
-    /// What the wind has taken in the `seconds` of motion since the last look, what slides by a spacing or falls off a
+    /// What the wind has taken in the `seconds` of motion since the last look, or will have before the middle of the
+    /// `next_seconds` until the next one, what slides by a spacing or falls off a
     /// slope, and what has landed, counted in `changes`, shared::PoolChanges: they lie where they were yet.
     void record_changes(gpu::Commands& commands, const gpu::Buffer& params, const ParticleBuffers& particles,
-                        const Exposure& exposure, const gpu::Buffer& changes, double seconds);
+                        const Exposure& exposure, const gpu::Buffer& changes, double seconds, double next_seconds);
 
     /// Sand in the air moves by the step that has just been taken. ledger: shared::Ledger.
     void record_step(gpu::Commands& commands, const Fluid& fluid, const gpu::Buffer& ledger) const;
     /// Of the commands of a step.
     [[nodiscard]] static std::uint32_t scopes() { return 1; }
 
-    /// s of motion, the longest from one look to the next: in it the wind takes at most a fortieth of a particle, for
-    /// what it takes beyond a whole one is lost to the next one; and sand does not slide by more than a spacing.
+    /// s of motion, the longest from one look to the next: in it the wind takes at most a tenth of a particle, and sand
+    /// does not slide by more than a spacing.
     [[nodiscard]] double longest_look() const { return longest_look_; }
 
     /// s of motion, from one slide by a spacing to the next.

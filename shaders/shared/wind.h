@@ -60,6 +60,11 @@ struct WindParams {
     WindMaterial of[MAX_MATERIALS];
 };
 
+struct WindPush {
+    float seconds; // that the wind has blown since the last look
+    float ahead;   // half of what passes until the next look, over what has passed since the last one
+};
+
 // What the slope along the wind does to the shear stress, over that on flat ground.
 SHARED_FUNCTION float stress_on_slope(float slope)
 {

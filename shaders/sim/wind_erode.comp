@@ -1,7 +1,8 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 // Sand at the surface: the wind takes what it is able to since the last look, counted as damage, and whose damage is complete
-// hops, if it is the top of its column: nobody leaves from under others. Twin: engine/reference/wind.cpp.
+// hops, at the look that is nearest to its time, if it is the top of its column: nobody leaves from under others. Twin:
+// engine/reference/wind.cpp.
 #include "include/invocation.glsl"
 #include "shared/particle_state.h"
 #include "shared/pool_changes.h"
@@ -10,7 +11,7 @@
 #include "shared/visibility.h"
 #include "shared/wind.h"
 
-layout(push_constant, scalar) uniform Push { float seconds; }; // that the wind has blown
+layout(push_constant, scalar) uniform Push { WindPush push; };
 layout(set = 0, binding = 0, scalar) uniform Params { SphParams params; };
 layout(set = 0, binding = 1, scalar) uniform Wind { WindParams wind; };
 layout(set = 0, binding = 2, scalar) uniform View { VisibilityParams view; };
@@ -45,10 +46,10 @@ void main()
     float stress = stress_on_slope(dot(ground_at(texel).slope, wind.direction));
     // Flux goes with the third power of the friction velocity, the stress with the second.
     float share = stress > sand.threshold && dot(surface.xyz, wind.up) > 0.0 ? stress * sqrt(stress) : 0.0;
-    float taken = sand.pick_up * share * visibility[slot] * surface.w * seconds / abs(velocity[i].w);
+    float taken = sand.pick_up * share * visibility[slot] * surface.w * push.seconds / abs(velocity[i].w);
     damage[slot] = two_float_add(damage[slot], taken);
 
-    if (damage[slot].x >= 1.0 && top_id[index_of(texel)] == slot) {
+    if (damage[slot].x + push.ahead * taken >= 1.0 && top_id[index_of(texel)] == slot) {
         attributes[i] = freed_as(attributes[i], STATE_DUST, CAUSE_WIND);
         position[i].w = 0.0;
         velocity[i].xyz = sand.launch_speed * launch_share(slot) * wind.up;

@@ -136,17 +136,20 @@ TEST_F(SandTest, StepsAndLooksAreTheTwins)
         const ParticleSet before = simulation.download();
         reference::State twin = reference::from_particle_set(before);
         reference::SandState sand = sand_state(simulation, before.size());
-        if (simulation.steps_until_erosion() == 0) {
-            const double seconds = simulation.time() - looked_at;
-            looked_at = simulation.time();
+        const bool looks = simulation.steps_until_erosion() == 0;
+        const double now = simulation.time();
+        simulation.advance(1);
+        if (looks) {
+            const double seconds = now - looked_at;
+            looked_at = now;
             slid_for += seconds;
             const bool slides = slid_for >= simulation.wind()->slide_time();
             slid_for = slides ? 0.0 : slid_for;
             const auto exposure = reference::exposure(twin_settings, twin);
             const auto seen = reference::visibility_of_solids(aside, reference::depth_map(aside, twin), twin, exposure);
-            const reference::SandChanges changes =
-                reference::look_at_sand(twin_settings, {wind, above, ground}, twin, sand, exposure, seen,
-                                        seconds * its.wind->time_scale, slides);
+            const reference::SandChanges changes = reference::look_at_sand(
+                twin_settings, {wind, above, ground}, twin, sand, exposure, seen, seconds * its.wind->time_scale,
+                seconds > 0.0 ? 0.5 * seconds_between_looks(simulation) / seconds : 0.0, slides);
             sum.picked_up += changes.picked_up;
             sum.fell += changes.fell;
             sum.slid += changes.slid;
@@ -155,7 +158,6 @@ TEST_F(SandTest, StepsAndLooksAreTheTwins)
             look_around(twin);
         }
         reference::move_sand(twin_settings, {wind, above, ground}, twin, sand);
-        simulation.advance(1);
         const ParticleSet after = simulation.download();
         const reference::SandState found = sand_state(simulation, after.size());
         for (std::size_t i = 0; i < after.size(); ++i) {
