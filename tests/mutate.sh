@@ -1589,6 +1589,31 @@ mutation "hydraulic: strata are lumps" \
     'if (erosion.strength_layers) {' \
     'if (false) {' \
     unit_tests 'Strength.OfLayersDependsOnTheWayAcrossThemAlone'
+mutation "hydraulic: the strength of colors is that of noise" \
+    engine/run/hydraulic_settings.cpp \
+    'erosion.strength_from == StrengthSource::Color' \
+    'erosion.strength_from == StrengthSource::Color && false' \
+    unit_tests 'ColorStrength.OfAScenesSolidsIsThatOfTheirFiles'
+mutation "color strength: sRGB is taken as linear" \
+    engine/run/color_strength.cpp \
+    'return c <= 0.04045 ? c / 12.92 : std::pow((c + 0.055) / 1.055, 2.4);' \
+    'return c;' \
+    unit_tests 'ColorStrength.IsOfLinearLuminance'
+mutation "color strength: dark is strong" \
+    engine/run/color_strength.cpp \
+    '2.0 * luminance - 1.0' \
+    '1.0 - 2.0 * luminance' \
+    physics_short_tests 'ColoredBedTest.*'
+mutation "mesh: welding forgets which vertices have which color" \
+    engine/geometry/triangle_mesh.cpp \
+    'welded.colors.push_back(mesh.colors[i]);' \
+    'welded.colors.push_back(mesh.colors[welded.colors.size()]);' \
+    unit_tests 'TriangleMesh.WeldingKeepsColors'
+mutation "surface sampling: a sample has the color of a corner" \
+    engine/geometry/mesh_candidates.cpp \
+    '(1.0 - u - v) * a + u * b + v * c)};' \
+    'a)};' \
+    unit_tests 'SurfaceSampling.ColorsLieBetweenThoseOfTheCorners'
 
 # --- the mutations: splats of solids --------------------------------------------------------------------------------------
 

@@ -76,6 +76,19 @@ bool has_tension(const Scene& scene)
     return std::ranges::any_of(materials, [](const Material& material) { return material.tension > 0.0f; });
 }
 
+std::optional<std::string> idle_color(const Scene& scene)
+{
+    const auto solid = std::ranges::find_if(scene.solids, [](const SolidBody& body) {
+        return body.erosion.strength_from == StrengthSource::Color && body.erosion.strength_contrast == 1.0f;
+    });
+    if (solid == scene.solids.end()) {
+        return std::nullopt;
+    }
+    return fmt::format("solid.{0}.strength_from is \"color\", but does nothing while solid.{0}.strength_contrast is 1: "
+                       "all colors are alike strong",
+                       solid - scene.solids.begin());
+}
+
 /// The paper's tension is one for all fluids.
 std::optional<std::string> unread_tension(const Scene& scene)
 {
@@ -185,8 +198,8 @@ std::vector<std::string> scene_warnings(const Scene& scene, const ParticleSet& p
     std::vector<std::string> warnings;
     for (const std::optional<std::string>& warning :
          {coarse_positions(scene), idle_viscosity(scene), idle_tension(scene), unread_tension(scene),
-          idle_contact_angle(scene), unmeasured_tension(scene), idle_clamp(scene), idle_lid(scene), endless_fall(scene),
-          shifted_surface(scene, particles), wet_sand(scene)}) {
+          idle_contact_angle(scene), unmeasured_tension(scene), idle_clamp(scene), idle_lid(scene), idle_color(scene),
+          endless_fall(scene), shifted_surface(scene, particles), wet_sand(scene)}) {
         if (warning) {
             warnings.push_back(*warning);
         }

@@ -163,6 +163,9 @@ enum class SolidBecomes { Fluid, Dust };
 /// What holds a solid in its place: the walls and colliders that it touches, all of itself, or nothing.
 enum class SolidAnchor { Ground, All, None };
 
+/// What makes parts of a solid stronger than others.
+enum class StrengthSource { Noise, Color };
+
 /// How flow carries a solid off (shared/hydraulic.h), and where the solid is stronger or weaker.
 struct Erodibility {
     bool erodes = false;
@@ -172,7 +175,8 @@ struct Erodibility {
     float exponent = 1.0f;           ///< a
     bool deposits = true;            ///< its sediment becomes solid again
     float strength_contrast = 1.0f; ///< the strongest is so many times as strong as usual, and the weakest a part of it
-    float strength_grain = 0.1f;    ///< m, size of the coarsest lumps, or layers
+    StrengthSource strength_from = StrengthSource::Noise;
+    float strength_grain = 0.1f;              ///< m, size of the coarsest lumps, or layers
     std::optional<glm::vec3> strength_layers; ///< across layers, of any length but 0; auto: lumps
 
     bool operator==(const Erodibility&) const = default;

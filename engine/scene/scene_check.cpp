@@ -287,6 +287,9 @@ private:
             if (solid.erosion.strength_layers && *solid.erosion.strength_layers == glm::vec3(0.0f)) {
                 fail(prefix + "strength_layers", "is [0, 0, 0], but must have a length");
             }
+            if (solid.erosion.strength_from == StrengthSource::Color) {
+                check_color_strength(prefix, solid);
+            }
             if (!solid.erosion.erodes) {
                 continue;
             }
@@ -300,6 +303,18 @@ private:
                      fluid == nullptr ? "there is no [[fluid]] or [[emitter]]"
                                       : fmt::format("the first here has {} kg/m^3", fluid->rest_density));
             }
+        }
+    }
+
+    void check_color_strength(const std::string& prefix, const SolidBody& solid) const
+    {
+        if (!std::holds_alternative<MeshShape>(solid.shape)) {
+            fail(prefix + "strength_from",
+                 "is \"color\", but only a shape \"mesh\" may have colors: those of its file");
+        }
+        if (!solid.erosion.erodes) {
+            fail(prefix + "strength_from", "is \"color\", but {}erodes is false: only what flow erodes has a strength",
+                 prefix);
         }
     }
 

@@ -910,6 +910,14 @@ TEST(SceneFile, ContradictionsOfASolidAreNamed)
     };
     EXPECT_EQ(error("dissolve_direction = [0, 0, 0]"),
               "test.toml:5: key \"solid.0.dissolve_direction\" is [0, 0, 0], but must have a length");
+    EXPECT_EQ(
+        error("erodes = true\nstrength_from = \"color\""),
+        "test.toml:6: key \"solid.0.strength_from\" is \"color\", but only a shape \"mesh\" may have colors: those "
+        "of its file");
+    EXPECT_EQ(error_of("[[solid]]\nshape = \"mesh\"\nmesh = \"rock.ply\"\nposition = [0, 1, 0]\n"
+                       "strength_from = \"color\""),
+              "test.toml:5: key \"solid.0.strength_from\" is \"color\", but solid.0.erodes is false: only what flow "
+              "erodes has a strength");
     EXPECT_NE(error("dissolve_direction = [0, 1, 0]\ndissolve_point = [0, 0, 0]")
                   .find("key \"solid.0.dissolve_direction\" is there beside solid.0.dissolve_point"),
               std::string::npos);
