@@ -897,9 +897,19 @@ mutation "fragments: a light body stops a heavy one" \
     conformance_tests 'FragmentsTest.StepsAreTheTwins'
 mutation "fragments: the force of fluid is felt again in every step" \
     shaders/sim/rigid_step.comp \
-    'reactions[its_id] = Reaction(vec3(0.0), vec3(0.0))' \
+    'reactions[its_id] = Reaction(owed - impulse, vec3(0.0))' \
     'reactions[its_id].friction = vec3(0.0)' \
     physics_short_tests 'FloatingTest*'
+mutation "fragments: bodies get all at once what fluid owes them" \
+    shaders/sim/rigid_step.comp \
+    'vec3 impulse = share * owed' \
+    'vec3 impulse = owed' \
+    physics_short_tests 'FloatingTest.ALightCubeRisesAndFloats'
+mutation "fragments: what fluid owes a body is forgotten" \
+    shaders/sim/rigid_step.comp \
+    'Reaction(owed - impulse, vec3(0.0))' \
+    'Reaction(vec3(0.0), vec3(0.0))' \
+    physics_short_tests 'FloatingTest.ASmallCubeDisplacesItsWeight'
 mutation "fragments: the longest step knows nothing of bodies" \
     shaders/sim/fastest.comp \
     '|| is_loose(attributes[i])' \
@@ -1614,6 +1624,49 @@ mutation "surface sampling: a sample has the color of a corner" \
     '(1.0 - u - v) * a + u * b + v * c)};' \
     'a)};' \
     unit_tests 'SurfaceSampling.ColorsLieBetweenThoseOfTheCorners'
+
+# --- the mutations: solids that melt to another volume ----------------------------------------------------------------------
+
+mutation "volume relaxation: it is over at once" \
+    shaders/sim/relax_volume.comp \
+    'relaxed_weight(position[i].w)' \
+    '1.0' \
+    conformance_tests 'VolumeRelaxationTest.*'
+mutation "volume relaxation: there is none" \
+    engine/sim/volume_relaxation.cpp \
+    'may_be_fluid && particles.weight[i] != 1.0f' \
+    'false && may_be_fluid' \
+    conformance_tests 'VolumeRelaxationTest.*'
+mutation "volume relaxation: solids have the surface of their fluid" \
+    shaders/sim/exposure.comp \
+    'share * position[i].w * params.lattice_volume' \
+    'share * params.lattice_volume' \
+    conformance_tests 'ExposureTest.OfASolidThatMeltsToAnotherVolumeIsItsFace'
+mutation "volume relaxation: solids conduct as their fluid's density has it" \
+    shaders/sim/temperature.comp \
+    'position[i].w / params.rest_density[material]; // 1 / rho0' \
+    '1.0 / params.rest_density[material]; // 1 / rho0' \
+    conformance_tests 'MeltingTest.LooksAreTheTwins'
+mutation "volume relaxation: particles of solids lie as near as those of fluid" \
+    engine/run/scene_particles.cpp \
+    'std::pow(volume, 1.0 / scene.domain.dimensions)' \
+    '1.0' \
+    unit_tests 'SceneParticles.OfASolidThatMeltsToAnotherVolumeHaveTheMassOfItsFluids'
+mutation "volume relaxation: solids are weighted as their fluid" \
+    engine/run/scene_particles.cpp \
+    'particles.weight[first + i] = static_cast<float>(volume);' \
+    '' \
+    unit_tests 'SceneParticles.OfASolidThatMeltsToAnotherVolumeHaveTheMassOfItsFluids'
+mutation "steps: those of deep water are as long as any" \
+    engine/run/fluid_settings.cpp \
+    'scene.solver == Solver::Dfsph && waves > 0.0' \
+    'scene.solver == Solver::Dfsph && waves > 1e9' \
+    physics_short_tests 'DeepWaterTest.*'
+mutation "warnings: nobody hears of bodies on trapped fluid" \
+    engine/run/scene_warnings.cpp \
+    'return solver == Solver::Pbf ? 2.0 : 5.0;' \
+    'return 1e9;' \
+    unit_tests 'SceneWarnings.BodiesOnFluidThatCannotGetOutOfTheirWay'
 
 # --- the mutations: splats of solids --------------------------------------------------------------------------------------
 

@@ -444,7 +444,8 @@ std::vector<SolidKey> make_solid_keys()
     const auto k = [](auto... arguments) { return key<SolidBody>(arguments...); };
     return joined(with_shape_keys<SolidBody>("what it is; each shape has keys of its own", {
         liquid_key<SolidBody>(ITSELF, "what it turns into: gives rest_density, viscosity, surface_tension and fluid_color the values of a liquid, unless they stand in the scene; custom: nothing"),
-        k("rest_density", FIELD(rest_density), "kg/m^3", Range{1e-3, 1e5}, "density, solid and fluid"),
+        k("rest_density", FIELD(rest_density), "kg/m^3", Range{1e-3, 1e5}, "density of the fluid"),
+        k("solid_density", FIELD(solid_density), "kg/m^3", Range{1e-3, 1e5}, "density while it is solid, 0.75 to 1.25 times that of the fluid: what is freed takes on its fluid's volume within some hundred steps, what freezes or settles keeps it; ice has 917; auto: rest_density"),
         k("viscosity", FIELD(viscosity), "Pa s", Range{0, 1e4}, "dynamic, of the fluid; auto: physics.viscosity"),
         k("surface_tension", FIELD(surface_tension), "N/m", Range{0, 1e4}, "of the fluid, as of a [[fluid]]"),
         k("friction", FIELD(friction), "Pa s", Range{0, 1e4}, "viscosity of fluid against the solid; 0 lets it slip freely"),

@@ -185,6 +185,7 @@ struct Erodibility {
 /// A solid that stands still while something holds it, and may turn into fluid, or crumble into dust. What FluidBody
 /// says is of that fluid; its velocities are not used.
 struct SolidBody : FluidBody {
+    std::optional<float> solid_density;         ///< kg/m^3, while it is solid; auto: rest_density
     float friction = 0.0f;                      ///< of fluid against it, Pa s; 0 is free slip
     float contact_angle = 90.0f;                ///< degrees, of fluid with tension at it
     glm::vec3 solid_color{0.72f, 0.55f, 0.38f}; ///< linear RGB, while it is solid
@@ -351,6 +352,12 @@ struct Scene {
     CameraSettings camera;
     RenderSettings render;
 };
+
+/// The volume of a solid over that of the fluid that it turns into.
+[[nodiscard]] inline double volume_as_solid(const SolidBody& body)
+{
+    return static_cast<double>(body.rest_density) / static_cast<double>(body.solid_density.value_or(body.rest_density));
+}
 
 /// What holds a solid. Sand holds itself: it is no piece that breaks off, but falls grain by grain.
 [[nodiscard]] inline SolidAnchor anchor_of(const SolidBody& body)

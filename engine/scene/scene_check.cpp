@@ -202,6 +202,7 @@ private:
         check_filled("solid", scene_.solids);
         for (std::size_t i = 0; i < scene_.solids.size(); ++i) {
             check_front(fmt::format("solid.{}.", i), scene_.solids[i].dissolve);
+            check_solid_density(fmt::format("solid.{}.", i), scene_.solids[i]);
         }
     }
 
@@ -275,6 +276,21 @@ private:
             if (solid.wind_erodes && solid.dissolve.speed > 0.0f) {
                 fail(prefix + "dissolve_speed", "is above 0, but it is sand (wind_erodes), which does not dissolve");
             }
+        }
+    }
+
+    void check_solid_density(const std::string& prefix, const SolidBody& solid) const
+    {
+        constexpr double least = 0.75; // farther apart than the reach of their bonds, particles would be of no piece
+        constexpr double most = 1.25;
+        const double ratio = 1.0 / volume_as_solid(solid);
+        if (ratio < least || ratio > most) {
+            fail(prefix + "solid_density", "is {} kg/m^3, but must be {} to {} times {}rest_density = {} kg/m^3",
+                 *solid.solid_density, least, most, prefix, solid.rest_density);
+        }
+        if (solid.wind_erodes && ratio != 1.0) {
+            fail(prefix + "solid_density", "is {} kg/m^3, but sand (wind_erodes) has one density, {}rest_density = {}",
+                 *solid.solid_density, prefix, solid.rest_density);
         }
     }
 

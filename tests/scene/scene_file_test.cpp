@@ -910,6 +910,12 @@ TEST(SceneFile, ContradictionsOfASolidAreNamed)
     };
     EXPECT_EQ(error("dissolve_direction = [0, 0, 0]"),
               "test.toml:5: key \"solid.0.dissolve_direction\" is [0, 0, 0], but must have a length");
+    EXPECT_EQ(error("rest_density = 1000\nsolid_density = 700"),
+              "test.toml:6: key \"solid.0.solid_density\" is 700 kg/m^3, but must be 0.75 to 1.25 times "
+              "solid.0.rest_density = 1000 kg/m^3");
+    EXPECT_EQ(error("rest_density = 1000\nsolid_density = 1100\nwind_erodes = true"),
+              "test.toml:6: key \"solid.0.solid_density\" is 1100 kg/m^3, but sand (wind_erodes) has one density, "
+              "solid.0.rest_density = 1000");
     EXPECT_EQ(
         error("erodes = true\nstrength_from = \"color\""),
         "test.toml:6: key \"solid.0.strength_from\" is \"color\", but only a shape \"mesh\" may have colors: those "
