@@ -1646,7 +1646,7 @@ mutation "volume relaxation: solids conduct as their fluid's density has it" \
     shaders/sim/temperature.comp \
     'position[i].w / params.rest_density[material]; // 1 / rho0' \
     '1.0 / params.rest_density[material]; // 1 / rho0' \
-    conformance_tests 'MeltingTest.LooksAreTheTwins'
+    conformance_tests 'HeatTest.ConductsAsItsTwin'
 mutation "volume relaxation: particles of solids lie as near as those of fluid" \
     engine/run/scene_particles.cpp \
     'std::pow(volume, 1.0 / scene.domain.dimensions)' \
