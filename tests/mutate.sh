@@ -1662,6 +1662,11 @@ mutation "steps: those of deep water are as long as any" \
     'scene.solver == Solver::Dfsph && waves > 0.0' \
     'scene.solver == Solver::Dfsph && waves > 1e9' \
     physics_short_tests 'DeepWaterTest.*'
+mutation "steps: bodies weigh nothing on the water below them" \
+    engine/run/fluid_settings.cpp \
+    'return depth + load' \
+    'return depth + 0.0 * load' \
+    physics_short_tests 'FloatingTest.AHeavySlabFromWallToWallStaysOnItsWater'
 mutation "warnings: nobody hears of bodies on trapped fluid" \
     engine/run/scene_warnings.cpp \
     'return solver == Solver::Pbf ? 2.0 : 5.0;' \

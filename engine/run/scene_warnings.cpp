@@ -224,11 +224,11 @@ std::optional<std::string> body_on_trapped_fluid(const Scene& scene)
                                "fluid that cannot get out of its way: up to {:g} times is well, or take \"wcsph\"",
                                s, ratio, solver, densest_body(scene.solver));
         }
-        if (shuts_domain(scene, solid.shape)) {
+        if (scene.solver == Solver::Pbf && shuts_domain(scene, solid.shape)) {
             return fmt::format(
-                "solid.{} reaches from wall to wall, and solver \"{}\" lets it bounce on the fluid below "
-                "it, which cannot get out of its way: take \"wcsph\"",
-                s, solver);
+                "solid.{} reaches from wall to wall, and solver \"pbf\" lets it bounce on the fluid below "
+                "it, which cannot get out of its way: take \"wcsph\" or \"dfsph\"",
+                s);
         }
     }
     return std::nullopt;

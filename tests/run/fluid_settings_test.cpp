@@ -515,6 +515,14 @@ TEST(FluidSettings, StepsOfDeepWaterAreShorter)
     scene.domain.periodic = glm::bvec3(false);
     scene.fluids[0].shape = BlockShape{glm::vec3(0.0f), {0.2f, 0.4f, 0.2f}};
     EXPECT_FLOAT_EQ(longest(), 5e-3f);
+    SolidBody slab; // on 0.2 m of water, with its own 0.1 m if it were some, it weighs as much as 0.8 m
+    slab.shape = BlockShape{{0.0f, 0.4f, 0.0f}, {0.2f, 0.6f, 0.2f}};
+    slab.rest_density = 4000.0f;
+    slab.anchor = SolidAnchor::None;
+    scene.solids.push_back(slab);
+    EXPECT_NEAR(longest(), 0.5 * 0.02 / std::sqrt(9.81 * 1.1), 1e-6);
+    scene.solids[0].anchor = SolidAnchor::Ground;
+    EXPECT_FLOAT_EQ(longest(), 5e-3f);
 }
 
 } // namespace

@@ -164,7 +164,10 @@ TEST(SceneWarnings, BodiesOnFluidThatCannotGetOutOfTheirWay)
     }
     scene.solids[0].rest_density = 500.0f;
     scene.solids[0].shape = BlockShape{{0.0f, 0.4f, 0.0f}, {1.0f, 0.8f, 1.0f}};
-    EXPECT_TRUE(warning_of(scene).starts_with("solid.0 reaches from wall to wall"));
+    EXPECT_TRUE(warning_of(scene).starts_with("solid.0 reaches from wall to wall")); // of pbf
+    scene.solver = Solver::Dfsph;
+    EXPECT_EQ(warning_of(scene), "");
+    scene.solids[0].rest_density = 9000.0f;
     scene.solver = Solver::Wcsph;
     EXPECT_EQ(warning_of(scene), "");
 }

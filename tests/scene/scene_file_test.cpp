@@ -606,6 +606,9 @@ Scene random_scene(std::uint64_t seed)
             solid.dissolve.speed = 0.0f;
         }
         solid.becomes = solid.melts || solid.erosion.erodes ? SolidBecomes::Fluid : solid.becomes;
+        const bool may_have_colors = solid.erosion.erodes && std::holds_alternative<MeshShape>(solid.shape);
+        solid.erosion.strength_from = may_have_colors ? solid.erosion.strength_from : StrengthSource::Noise;
+        solid.solid_density = solid.wind_erodes ? std::nullopt : std::optional(0.9f * solid.rest_density);
         solid.erosion.grain_size = std::nullopt; // grains are heavier than the fluid
     }
     scene.wind.direction = glm::vec3(scene.wind.direction.x, scene.wind.direction.y,

@@ -63,5 +63,32 @@ TEST_F(FloatingTest, ALightCubeRisesAndFloats)
     }
 }
 
+// Steps as long as the water's depth alone would allow let it bounce, ever higher.
+TEST_F(FloatingTest, AHeavySlabFromWallToWallStaysOnItsWater)
+{
+    StartedScene started = start_scene(context(), parse_scene(R"(
+solver = "dfsph"
+domain = { min = [0, 0, 0], max = [0.4, 1.2, 0.4], dimensions = 2 }
+particles = { spacing = 0.02, support_ratio = 2 }
+[[fluid]]
+shape = "block"
+min = [0, 0, 0]
+max = [0.4, 0.4, 0]
+viscosity = 1
+[[solid]]
+shape = "block"
+min = [0, 0.4, 0]
+max = [0.4, 0.8, 0]
+rest_density = 8000
+anchor = "none"
+)",
+                                                              "slab", ".", {}));
+    sim::Simulation& simulation = *started.simulation;
+    while (simulation.time() < 0.8) {
+        simulation.advance_by(0.05);
+        EXPECT_NEAR(simulation.fragments()->download_bodies().at(0).center.y, 0.6f, 0.02f) << simulation.time();
+    }
+}
+
 } // namespace
 } // namespace meltpoint
