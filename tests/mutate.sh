@@ -897,9 +897,19 @@ mutation "fragments: a light body stops a heavy one" \
     conformance_tests 'FragmentsTest.StepsAreTheTwins'
 mutation "fragments: the force of fluid is felt again in every step" \
     shaders/sim/rigid_step.comp \
-    'reactions[its_id] = Reaction(vec3(0.0), vec3(0.0))' \
+    'reactions[its_id] = Reaction(owed - impulse, vec3(0.0))' \
     'reactions[its_id].friction = vec3(0.0)' \
     physics_short_tests 'FloatingTest*'
+mutation "fragments: bodies get all at once what fluid owes them" \
+    shaders/sim/rigid_step.comp \
+    'vec3 impulse = share * owed' \
+    'vec3 impulse = owed' \
+    physics_short_tests 'FloatingTest.ALightCubeRisesAndFloats'
+mutation "fragments: what fluid owes a body is forgotten" \
+    shaders/sim/rigid_step.comp \
+    'Reaction(owed - impulse, vec3(0.0))' \
+    'Reaction(vec3(0.0), vec3(0.0))' \
+    physics_short_tests 'FloatingTest.ASmallCubeDisplacesItsWeight'
 mutation "fragments: the longest step knows nothing of bodies" \
     shaders/sim/fastest.comp \
     '|| is_loose(attributes[i])' \
@@ -1647,6 +1657,79 @@ mutation "hydraulic: strata are lumps" \
     'if (erosion.strength_layers) {' \
     'if (false) {' \
     unit_tests 'Strength.OfLayersDependsOnTheWayAcrossThemAlone'
+mutation "hydraulic: the strength of colors is that of noise" \
+    engine/run/hydraulic_settings.cpp \
+    'erosion.strength_from == StrengthSource::Color' \
+    'erosion.strength_from == StrengthSource::Color && false' \
+    unit_tests 'ColorStrength.OfAScenesSolidsIsThatOfTheirFiles'
+mutation "color strength: sRGB is taken as linear" \
+    engine/run/color_strength.cpp \
+    'return c <= 0.04045 ? c / 12.92 : std::pow((c + 0.055) / 1.055, 2.4);' \
+    'return c;' \
+    unit_tests 'ColorStrength.IsOfLinearLuminance'
+mutation "color strength: dark is strong" \
+    engine/run/color_strength.cpp \
+    '2.0 * luminance - 1.0' \
+    '1.0 - 2.0 * luminance' \
+    physics_short_tests 'ColoredBedTest.*'
+mutation "mesh: welding forgets which vertices have which color" \
+    engine/geometry/triangle_mesh.cpp \
+    'welded.colors.push_back(mesh.colors[i]);' \
+    'welded.colors.push_back(mesh.colors[welded.colors.size()]);' \
+    unit_tests 'TriangleMesh.WeldingKeepsColors'
+mutation "surface sampling: a sample has the color of a corner" \
+    engine/geometry/mesh_candidates.cpp \
+    '(1.0 - u - v) * a + u * b + v * c)};' \
+    'a)};' \
+    unit_tests 'SurfaceSampling.ColorsLieBetweenThoseOfTheCorners'
+
+# --- the mutations: solids that melt to another volume ----------------------------------------------------------------------
+
+mutation "volume relaxation: it is over at once" \
+    shaders/sim/relax_volume.comp \
+    'relaxed_weight(position[i].w)' \
+    '1.0' \
+    conformance_tests 'VolumeRelaxationTest.*'
+mutation "volume relaxation: there is none" \
+    engine/sim/volume_relaxation.cpp \
+    'may_be_fluid && particles.weight[i] != 1.0f' \
+    'false && may_be_fluid' \
+    conformance_tests 'VolumeRelaxationTest.*'
+mutation "volume relaxation: solids have the surface of their fluid" \
+    shaders/sim/exposure.comp \
+    'share * position[i].w * params.lattice_volume' \
+    'share * params.lattice_volume' \
+    conformance_tests 'ExposureTest.OfASolidThatMeltsToAnotherVolumeIsItsFace'
+mutation "volume relaxation: solids conduct as their fluid's density has it" \
+    shaders/sim/temperature.comp \
+    'position[i].w / params.rest_density[material]; // 1 / rho0' \
+    '1.0 / params.rest_density[material]; // 1 / rho0' \
+    conformance_tests 'HeatTest.ConductsAsItsTwin'
+mutation "volume relaxation: particles of solids lie as near as those of fluid" \
+    engine/run/scene_particles.cpp \
+    'std::pow(volume, 1.0 / scene.domain.dimensions)' \
+    '1.0' \
+    unit_tests 'SceneParticles.OfASolidThatMeltsToAnotherVolumeHaveTheMassOfItsFluids'
+mutation "volume relaxation: solids are weighted as their fluid" \
+    engine/run/scene_particles.cpp \
+    'particles.weight[first + i] = static_cast<float>(volume);' \
+    '' \
+    unit_tests 'SceneParticles.OfASolidThatMeltsToAnotherVolumeHaveTheMassOfItsFluids'
+mutation "steps: those of deep water are as long as any" \
+    engine/run/fluid_settings.cpp \
+    'scene.solver == Solver::Dfsph && waves > 0.0' \
+    'scene.solver == Solver::Dfsph && waves > 1e9' \
+    physics_short_tests 'DeepWaterTest.*'
+mutation "steps: bodies weigh nothing on the water below them" \
+    engine/run/fluid_settings.cpp \
+    'return depth + load' \
+    'return depth + 0.0 * load' \
+    physics_short_tests 'FloatingTest.AHeavySlabFromWallToWallStaysOnItsWater'
+mutation "warnings: nobody hears of bodies on trapped fluid" \
+    engine/run/scene_warnings.cpp \
+    'return solver == Solver::Pbf ? 2.0 : 5.0;' \
+    'return 1e9;' \
+    unit_tests 'SceneWarnings.BodiesOnFluidThatCannotGetOutOfTheirWay'
 
 # --- the mutations: splats of solids --------------------------------------------------------------------------------------
 

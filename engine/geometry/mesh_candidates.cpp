@@ -30,6 +30,15 @@ glm::vec3 normal_at(const TriangleMesh& mesh, std::uint32_t triangle, double u, 
     return glm::vec3(glm::normalize(area_vector(mesh, triangle)));
 }
 
+glm::u8vec3 color_at(const TriangleMesh& mesh, std::uint32_t triangle, double u, double v)
+{
+    const glm::uvec3& corners = mesh.triangles[triangle];
+    const glm::dvec3 a(mesh.colors[corners.x]);
+    const glm::dvec3 b(mesh.colors[corners.y]);
+    const glm::dvec3 c(mesh.colors[corners.z]);
+    return {glm::round((1.0 - u - v) * a + u * b + v * c)};
+}
+
 } // namespace
 
 MeshCandidates::MeshCandidates(const TriangleMesh& mesh, std::uint64_t seed)
@@ -67,6 +76,7 @@ PointCloud MeshCandidates::empty_cloud(std::size_t count) const
     cloud.normals.resize(count);
     cloud.triangle.resize(count);
     cloud.barycentric.resize(count);
+    cloud.colors.resize(mesh_.colors.empty() ? 0 : count);
     return cloud;
 }
 
@@ -77,6 +87,9 @@ void MeshCandidates::put(PointCloud& cloud, std::size_t place, std::size_t numbe
     cloud.normals[place] = normal_at(mesh_, chosen.triangle, chosen.barycentric.x, chosen.barycentric.y);
     cloud.triangle[place] = chosen.triangle;
     cloud.barycentric[place] = chosen.barycentric;
+    if (!cloud.colors.empty()) {
+        cloud.colors[place] = color_at(mesh_, chosen.triangle, chosen.barycentric.x, chosen.barycentric.y);
+    }
 }
 
 } // namespace meltpoint

@@ -40,6 +40,14 @@ public:
         return found;
     }
 
+    [[nodiscard]] std::uint32_t nearest_to(const glm::vec3& place) const
+    {
+        std::uint32_t found = 0;
+        double square = 0.0;
+        index_.knnSearch(&place.x, 1, &found, &square);
+        return found;
+    }
+
 private:
     using Distance = nanoflann::L2_Simple_Adaptor<float, PointSource, double, std::uint32_t>;
 
@@ -54,6 +62,11 @@ NearestPoints::~NearestPoints() = default;
 std::vector<std::uint32_t> NearestPoints::of(std::uint32_t point, std::size_t count) const
 {
     return tree_->of(point, count);
+}
+
+std::uint32_t NearestPoints::nearest_to(const glm::vec3& place) const
+{
+    return tree_->nearest_to(place);
 }
 
 } // namespace meltpoint

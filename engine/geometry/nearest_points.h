@@ -10,8 +10,8 @@
 
 namespace meltpoint {
 
-/// Finds the points that are nearest to one of them, whatever their density: a k-d tree. Safe to query from several
-/// threads.
+/// Finds the points that are nearest to one of them, or to a place, whatever their density: a k-d tree. Safe to query
+/// from several threads.
 class NearestPoints {
 public:
     /// At most 2^32 - 1 points, finite; they must outlive this.
@@ -22,6 +22,9 @@ public:
 
     /// The numbers of the `count` points nearest to one, without itself, nearest first; fewer where there are no more.
     [[nodiscard]] std::vector<std::uint32_t> of(std::uint32_t point, std::size_t count) const;
+
+    /// The number of the point nearest to a place, which need not be one of them. There must be points.
+    [[nodiscard]] std::uint32_t nearest_to(const glm::vec3& place) const;
 
 private:
     class Tree;

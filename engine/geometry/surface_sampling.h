@@ -32,7 +32,8 @@ struct SurfaceSamples {
 
 /// Takes points from the surface of a mesh, which must be valid (validate()): exactly as many as asked, or
 /// round(A / spacing^2), at least one. Each carries its triangle, its barycentric coordinates, and its normal:
-/// interpolated from the vertices where all three have one, else the triangle's. The same seed gives the same points on
+/// interpolated from the vertices where all three have one, else the triangle's; and the color between those of the
+/// vertices, where the mesh has them. The same seed gives the same points on
 /// any number of threads. A spacing that is not positive, and more than 2^28
 /// random or 2^24 other points, are Input errors.
 [[nodiscard]] SurfaceSamples sample_surface(const TriangleMesh& mesh, const SurfaceRequest& request);

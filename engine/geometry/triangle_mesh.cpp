@@ -137,6 +137,10 @@ void validate(const TriangleMesh& mesh, std::string_view name)
         throw input_error("{}: the mesh has {} normals for {} vertices", name, mesh.normals.size(),
                           mesh.positions.size());
     }
+    if (!mesh.colors.empty() && mesh.colors.size() != mesh.positions.size()) {
+        throw input_error("{}: the mesh has {} colors for {} vertices", name, mesh.colors.size(),
+                          mesh.positions.size());
+    }
     for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
         const glm::uvec3& corners = mesh.triangles[i];
         const std::uint32_t highest = std::max({corners.x, corners.y, corners.z});
@@ -236,6 +240,9 @@ TriangleMesh weld(const TriangleMesh& mesh)
             welded.positions.push_back(mesh.positions[i]);
             if (!normals.empty()) {
                 welded.normals.push_back(normals[i]);
+            }
+            if (!mesh.colors.empty()) {
+                welded.colors.push_back(mesh.colors[i]);
             }
         }
     }

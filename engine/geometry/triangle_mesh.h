@@ -6,6 +6,7 @@
 #include <vector>
 
 #include <glm/glm.hpp>
+#include <glm/gtc/type_precision.hpp>
 
 #include "core/aabb.h"
 
@@ -18,11 +19,12 @@ struct TriangleMesh {
     std::vector<glm::uvec3> triangles;
     /// One a vertex, or empty. Of unit length, or zero at a crease, where no single normal describes the surface.
     std::vector<glm::vec3> normals;
+    std::vector<glm::u8vec3> colors; ///< sRGB, one a vertex; empty where the source has none
 };
 
 /// Throws an Input error that names the mesh unless every later stage can work with it: at least one triangle, indices
-/// in range, finite vertices, one normal a vertex or none, an extent between a nanometer and a million kilometers, and
-/// an area above zero.
+/// in range, finite vertices, one normal and one color a vertex or none, an extent between a nanometer and a million
+/// kilometers, and an area above zero.
 void validate(const TriangleMesh& mesh, std::string_view name);
 
 /// The box of all vertices; empty for a mesh without any.
@@ -43,7 +45,8 @@ void validate(const TriangleMesh& mesh, std::string_view name);
 
 /// Merges vertices that lie within a millionth of the mesh's extent of each other, drops triangles left with fewer than
 /// three corners and vertices left without a triangle; both keep their order. Normals of merged vertices are averaged,
-/// or set to zero where they differ by more than 30 degrees from their mean (a crease).
+/// or set to zero where they differ by more than 30 degrees from their mean (a crease). Their color is that of the
+/// first.
 [[nodiscard]] TriangleMesh weld(const TriangleMesh& mesh);
 
 /// Normals averaged over the triangles of a vertex, weighted by area.

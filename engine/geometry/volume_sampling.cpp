@@ -58,12 +58,19 @@ VolumeSamples sample_block(const Aabb& block, double spacing)
                           block.max.x, block.max.y, block.max.z);
     }
     check_lattice(size, spacing, range_for_spacing);
-    CellGrid grid;
-    grid.origin = glm::dvec3(block.min);
-    grid.count = glm::uvec3(glm::round(size / spacing));
-    if (grid.size() == 0) {
+    const glm::uvec3 count(glm::round(size / spacing));
+    if (count.x == 0 || count.y == 0 || count.z == 0) {
         throw too_thin(size, spacing);
     }
+    return sample_block(block, count);
+}
+
+VolumeSamples sample_block(const Aabb& block, const glm::uvec3& count)
+{
+    const glm::dvec3 size = glm::dvec3(block.max) - glm::dvec3(block.min);
+    CellGrid grid;
+    grid.origin = glm::dvec3(block.min);
+    grid.count = count;
     grid.cell_size = size / glm::dvec3(grid.count);
 
     VolumeSamples samples;

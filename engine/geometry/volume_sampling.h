@@ -60,6 +60,9 @@ struct VolumeSamples {
 /// step inside. Errors as above; a side of less than half a spacing is too thin.
 [[nodiscard]] VolumeSamples sample_block(const Aabb& block, double spacing);
 
+/// The same of a number along each axis.
+[[nodiscard]] VolumeSamples sample_block(const Aabb& block, const glm::uvec3& count);
+
 /// Fills a ball with a cubic lattice.
 [[nodiscard]] VolumeSamples sample_sphere(const glm::vec3& center, float radius, double spacing);
 

@@ -170,7 +170,8 @@ TriangleMesh read_ply_mesh(Bytes bytes, const std::filesystem::path& path)
     if (content.triangles.empty()) {
         throw input_error("{}: the file holds {} points, but no faces", path.string(), content.positions.size());
     }
-    return {std::move(content.positions), std::move(content.triangles), std::move(content.normals)};
+    return {std::move(content.positions), std::move(content.triangles), std::move(content.normals),
+            std::move(content.colors)};
 }
 
 struct Format {

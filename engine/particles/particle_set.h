@@ -20,7 +20,8 @@ struct ParticleSet {
     std::vector<glm::vec3> velocity;       ///< m/s
     std::vector<glm::vec3> acceleration;   ///< m/s^2, of the last force evaluation
     std::vector<float> mass;               ///< kg; 0 for colliders
-    std::vector<float> weight;   ///< in its neighbors' number density: 1 for fluids and solids, V/d^3 for colliders
+    std::vector<float> weight;   ///< in its neighbors' number density: 1 for fluids, for solids V over their fluid's,
+                                 ///< V/d^3 for colliders
     std::vector<float> density;  ///< kg/m^3, boundary contributions included
     std::vector<float> pressure; ///< Pa
 

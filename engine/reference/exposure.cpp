@@ -57,7 +57,8 @@ std::vector<glm::dvec4> exposure_of_all(const Settings& settings, const State& s
             const double size = glm::length(sum);
             const double lacking = 1.0 - filling_scale * filling / static_cast<double>(shared::THIN_FILLING);
             const double thin = 2.0 * settings.dimensions * std::max(lacking, 0.0) * cell_face(params);
-            exposed[i] = glm::dvec4(size > 0.0 ? sum / size : glm::dvec3(0.0), std::max(scale * size, thin));
+            exposed[i] =
+                glm::dvec4(size > 0.0 ? sum / size : glm::dvec3(0.0), state.weight[i] * std::max(scale * size, thin));
         }
     });
     return exposed;
@@ -66,9 +67,9 @@ std::vector<glm::dvec4> exposure_of_all(const Settings& settings, const State& s
 std::vector<glm::dvec4> exposure(const Settings& settings, const State& state)
 {
     std::vector<glm::dvec4> exposed = exposure_of_all(settings, state);
-    for (glm::dvec4& each : exposed) {
-        const bool inside = each.w < static_cast<double>(shared::LEAST_EXPOSURE) * cell_face(settings.params);
-        each = inside ? glm::dvec4(0.0) : each;
+    for (std::size_t i = 0; i < exposed.size(); ++i) {
+        const double least = static_cast<double>(shared::LEAST_EXPOSURE) * state.weight[i] * cell_face(settings.params);
+        exposed[i] = exposed[i].w < least ? glm::dvec4(0.0) : exposed[i];
     }
     return exposed;
 }

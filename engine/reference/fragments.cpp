@@ -219,7 +219,7 @@ public:
         }
     }
 
-    void step(std::span<const glm::dvec3> impulse)
+    void step(std::span<glm::dvec3> owed)
     {
         std::vector<std::vector<Plane>> planes; // where all are before anyone moves
         for (const RigidBody& body : bodies_) {
@@ -229,7 +229,7 @@ public:
             }
         }
         for (std::size_t b = 0; b < bodies_.size(); ++b) {
-            step_body(bodies_[b], planes[b], impulse);
+            step_body(bodies_[b], planes[b], owed);
         }
     }
 
@@ -391,11 +391,15 @@ private:
         return glm::normalize(turn * orientation);
     }
 
-    void step_body(RigidBody& body, const std::vector<Plane>& planes, std::span<const glm::dvec3> impulse)
+    void step_body(RigidBody& body, const std::vector<Plane>& planes, std::span<glm::dvec3> owed)
     {
         body.velocity += dt_ * glm::dvec3(params_.gravity);
+        const double displaced = static_cast<double>(rigid_.fluid_density) *
+                                 static_cast<double>(params_.lattice_volume) * static_cast<double>(body.members.size());
         for (std::size_t m = 0; m < body.members.size(); ++m) {
-            const glm::dvec3& its = impulse[body.members[m]];
+            glm::dvec3& left = owed[body.members[m]];
+            const glm::dvec3 its = body.mass / (body.mass + displaced) * left;
+            left -= its;
             push(body, its, glm::cross(arm_of(body, m), its));
         }
         body.contacts = find_contacts(body, planes);
@@ -429,9 +433,9 @@ private:
 } // namespace
 
 void step_bodies(const Settings& settings, const shared::RigidParams& rigid, State& state,
-                 std::vector<RigidBody>& bodies, std::span<const glm::dvec3> impulse)
+                 std::vector<RigidBody>& bodies, std::span<glm::dvec3> owed)
 {
-    Stepper(settings, rigid, state, bodies).step(impulse);
+    Stepper(settings, rigid, state, bodies).step(owed);
 }
 
 } // namespace meltpoint::reference

@@ -49,9 +49,9 @@ struct RigidBody {
 [[nodiscard]] std::vector<RigidBody> make_bodies(const Settings& settings, const State& state,
                                                  std::span<const std::uint32_t> piece);
 
-/// Twin of sim/rigid_touch.comp and sim/rigid_step.comp: bodies and their particles a time step on. impulse: N s, of
-/// fluid on each particle in this step.
+/// Twin of sim/rigid_touch.comp and sim/rigid_step.comp: bodies and their particles a time step on. owed: N s, by
+/// fluid to each particle, of this step and those before; afterwards what is left of it.
 void step_bodies(const Settings& settings, const shared::RigidParams& rigid, State& state,
-                 std::vector<RigidBody>& bodies, std::span<const glm::dvec3> impulse);
+                 std::vector<RigidBody>& bodies, std::span<glm::dvec3> owed);
 
 } // namespace meltpoint::reference

@@ -21,6 +21,12 @@ bool keeps_heat(const State& state, std::size_t i)
     return is_in_state(state, i, shared::STATE_FLUID) || is_in_state(state, i, shared::STATE_SOLID);
 }
 
+/// m^3/kg, at rest: a solid's is its own.
+double specific_volume(const Settings& settings, const State& state, std::size_t i)
+{
+    return state.weight[i] / rest_density(settings, state, i);
+}
+
 /// What the others see of a particle.
 struct Thermal {
     double temperature = 0.0;  // degrees C
@@ -39,7 +45,7 @@ Thermal thermal_of(const Settings& settings, const shared::HeatParams& heat, con
     return {.temperature = temperature(material, enthalpy),
             .conductivity = conductivity(material, enthalpy),
             .volume = collider ? state.weight[i] * static_cast<double>(settings.params.lattice_volume)
-                               : state.mass[i] / rest_density(settings, state, i)};
+                               : state.mass[i] * specific_volume(settings, state, i)};
 }
 
 } // namespace
@@ -92,7 +98,7 @@ void conduct(const Settings& settings, const shared::HeatParams& heat, const Sta
                 4.0 * thermal[i].conductivity * other.conductivity / (thermal[i].conductivity + other.conductivity);
             sum += other.volume * pair_conductivity * (other.temperature - thermal[i].temperature) * -slope / r;
         }
-        enthalpy[state.id[i]] += dt * sum / rest_density(settings, state, i);
+        enthalpy[state.id[i]] += dt * sum * specific_volume(settings, state, i);
     });
 }
 

@@ -1,5 +1,7 @@
 #include "run/fragment_settings.h"
 
+#include <algorithm>
+
 #include "scene/materials.h"
 
 namespace meltpoint {
@@ -27,6 +29,9 @@ std::optional<sim::FragmentSettings> fragment_settings(const Scene& scene)
         return std::nullopt;
     }
     sim::FragmentSettings settings;
+    for (const FluidBody* body : fluid_bodies(scene)) {
+        settings.params.fluid_density = std::max(settings.params.fluid_density, body->rest_density);
+    }
     const std::vector<Material> materials = scene_materials(scene).materials;
     for (std::size_t i = 0; i < materials.size(); ++i) {
         settings.params.anchor[i] = anchor_number(materials[i].anchor);

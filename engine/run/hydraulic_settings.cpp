@@ -5,6 +5,7 @@
 
 #include "core/noise.h"
 #include "core/parallel_for.h"
+#include "run/color_strength.h"
 #include "scene/materials.h"
 
 namespace meltpoint {
@@ -64,7 +65,8 @@ std::optional<sim::HydraulicSettings> hydraulic_settings(const Scene& scene, con
     params.time_scale = scene.hydraulic.time_scale;
     params.deposition_speed = scene.hydraulic.deposition_speed;
     params.deposition_time = scene.hydraulic.deposition_time;
-    const std::vector<Material> materials = scene_materials(scene).materials;
+    const SceneMaterials numbers = scene_materials(scene);
+    const std::vector<Material>& materials = numbers.materials;
     settings.strength.assign(particles.size(), 1.0f);
     for (std::size_t m = 0; m < materials.size(); ++m) {
         const Erodibility& erosion = materials[m].erosion;
@@ -78,7 +80,10 @@ std::optional<sim::HydraulicSettings> hydraulic_settings(const Scene& scene, con
         if (!erosion.erodes || erosion.strength_contrast == 1.0f) {
             continue;
         }
-        const std::vector<float> found = strengths(erosion, particles.position, scene.seed + m);
+        const std::vector<float> found =
+            erosion.strength_from == StrengthSource::Color
+                ? color_strengths(colored_surfaces(scene, numbers, m), erosion.strength_contrast, particles.position)
+                : strengths(erosion, particles.position, scene.seed + m);
         for (std::size_t i = 0; i < particles.size(); ++i) {
             if (shared::particle_material(particles.attributes[i]) == m) {
                 settings.strength[i] = found[i];

@@ -30,11 +30,13 @@ struct Grains {
 /// coastal environments", 1997). The grains must be heavier than the fluid.
 [[nodiscard]] double shields_threshold(const Grains& grains);
 
-/// Of each place (m) in a solid: its strength, from 1 / erosion.strength_contrast to erosion.strength_contrast.
+/// Of each place (m) in a solid: its strength by noise, from 1 / erosion.strength_contrast to
+/// erosion.strength_contrast.
 [[nodiscard]] std::vector<float> strengths(const Erodibility& erosion, std::span<const glm::vec3> positions,
                                            std::uint64_t seed);
 
-/// What hydraulic erosion needs of a scene and its particles at the start; nothing where no solid erodes.
+/// What hydraulic erosion needs of a scene and its particles at the start; nothing where no solid erodes. Throws Input
+/// where strength comes from colors that there are not.
 [[nodiscard]] std::optional<sim::HydraulicSettings> hydraulic_settings(const Scene& scene,
                                                                        const ParticleSet& particles);
 

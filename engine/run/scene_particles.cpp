@@ -56,12 +56,17 @@ std::vector<FilledBody> filled_bodies(const Scene& scene, const SceneMaterials& 
     return bodies;
 }
 
-/// A body as blue noise, relaxed as its kernel and the domain's walls will see it.
-VolumeSamples sample_blue_noise(const Scene& scene, std::uint64_t seed, const Solid& solid)
+/// m, of a body's particles. Those of a solid that melts to another volume have the mass of their fluid's all the same.
+double spacing_of(const Scene& scene, const FilledBody& filled)
 {
-    VolumeRequest request{.lattice = Lattice::BlueNoise,
-                          .amount = PointSpacing{static_cast<double>(scene.particles.spacing)},
-                          .seed = seed};
+    const double volume = filled.solid != nullptr ? volume_as_solid(*filled.solid) : 1.0;
+    return static_cast<double>(scene.particles.spacing) * std::pow(volume, 1.0 / scene.domain.dimensions);
+}
+
+/// A body as blue noise, relaxed as its kernel and the domain's walls will see it.
+VolumeSamples sample_blue_noise(const Scene& scene, std::uint64_t seed, const Solid& solid, double spacing)
+{
+    VolumeRequest request{.lattice = Lattice::BlueNoise, .amount = PointSpacing{spacing}, .seed = seed};
     // Narrower kernels hardly see a fluid, wider ones see none of what is left uneven.
     request.relaxation.support_ratio = std::clamp(static_cast<double>(scene.particles.support_ratio), 2.0, 3.0);
     if (scene.domain.walls) {
@@ -82,19 +87,39 @@ VolumeSamples sample_plane_shape(const BodyShape& shape, double spacing)
                       shape);
 }
 
+/// How many particles a block gets along each axis, at about this spacing, so that their number suits its volume best.
+glm::uvec3 block_counts(const BlockShape& block, double spacing)
+{
+    const glm::dvec3 ideal = (glm::dvec3(block.max) - glm::dvec3(block.min)) / spacing;
+    const auto error = [&](const glm::uvec3& count) {
+        const glm::dvec3 share = glm::dvec3(count) / ideal;
+        return std::abs(share.x * share.y * share.z - 1.0);
+    };
+    glm::uvec3 best = glm::max(glm::round(ideal), 1.0);
+    for (std::uint32_t corner = 0; corner < 8; ++corner) {
+        const glm::uvec3 up(corner & 1u, corner >> 1u & 1u, corner >> 2u);
+        const glm::uvec3 count = glm::max(glm::uvec3(glm::floor(ideal)) + up, 1u);
+        best = error(count) < error(best) - 1e-6 ? count : best;
+    }
+    return best;
+}
+
 VolumeSamples sample_shape(const Scene& scene, const FilledBody& filled, const Solid& solid)
 {
     const FluidBody& body = filled.body;
-    const auto spacing = static_cast<double>(scene.particles.spacing);
+    const double spacing = spacing_of(scene, filled);
     if (scene.domain.dimensions == 2) {
         return sample_plane_shape(body.shape, spacing);
     }
     if (body.lattice == FluidLattice::BlueNoise) {
-        return sample_blue_noise(scene, filled.seed, solid);
+        return sample_blue_noise(scene, filled.seed, solid, spacing);
     }
+    const bool swells = filled.solid != nullptr && volume_as_solid(*filled.solid) != 1.0;
     return std::visit(Overloaded{
                           [&](const BlockShape& block) {
-                              return sample_block({block.min, block.max}, spacing);
+                              const Aabb box{block.min, block.max};
+                              return swells ? sample_block(box, block_counts(block, spacing))
+                                            : sample_block(box, spacing);
                           },
                           [&](const SphereShape& ball) { return sample_sphere(ball.center, ball.radius, spacing); },
                           [&](const MeshShape&) { return sample_volume(solid, {.amount = PointSpacing{spacing}}); },
@@ -197,6 +222,8 @@ void add_body(ParticleSet& particles, const FilledBody& filled, const VolumeSamp
     if (filled.solid != nullptr && filled.solid->becomes == SolidBecomes::Dust) {
         attributes |= shared::FLAG_CRUMBLES;
     }
+    const double volume = filled.solid != nullptr ? volume_as_solid(*filled.solid) : 1.0; // over its fluid's
+    const double density = static_cast<double>(body.rest_density) / volume;
     const std::size_t first = particles.size();
     particles.resize(first + samples.positions.size());
     glm::dvec3 center(0.0);
@@ -209,7 +236,8 @@ void add_body(ParticleSet& particles, const FilledBody& filled, const VolumeSamp
         particles.position[first + i] = x;
         particles.velocity[first + i] =
             body.velocity + body.velocity_gradient * x + glm::cross(body.spin, x - spin_center);
-        particles.mass[first + i] = static_cast<float>(double{body.rest_density} * samples.particle_volume);
+        particles.mass[first + i] = static_cast<float>(density * samples.particle_volume);
+        particles.weight[first + i] = static_cast<float>(volume);
         particles.attributes[first + i] = attributes;
     }
 }
@@ -286,7 +314,8 @@ SceneParticles make_scene_particles(const Scene& any_scene, std::uint64_t limit)
         const FilledBody& filled = bodies[b];
         VolumeSamples samples = sample_body(scene, filled, *solids[b]);
         check_inside(scene, samples, filled.name);
-        const Pitch pitch{.nearest = least_distance(filled.body, samples, spacing, scene.domain.dimensions),
+        const Pitch pitch{.nearest =
+                              least_distance(filled.body, samples, spacing_of(scene, filled), scene.domain.dimensions),
                           .spacing = static_cast<float>(samples.spacing)};
         taken.clear(filled.name, samples.positions, pitch, result.notes);
         if (samples.positions.empty()) {

@@ -78,6 +78,19 @@ bool has_tension(const Scene& scene)
     return std::ranges::any_of(materials, [](const Material& material) { return material.tension > 0.0f; });
 }
 
+std::optional<std::string> idle_color(const Scene& scene)
+{
+    const auto solid = std::ranges::find_if(scene.solids, [](const SolidBody& body) {
+        return body.erosion.strength_from == StrengthSource::Color && body.erosion.strength_contrast == 1.0f;
+    });
+    if (solid == scene.solids.end()) {
+        return std::nullopt;
+    }
+    return fmt::format("solid.{0}.strength_from is \"color\", but does nothing while solid.{0}.strength_contrast is 1: "
+                       "all colors are alike strong",
+                       solid - scene.solids.begin());
+}
+
 /// The paper's tension is one for all fluids.
 std::optional<std::string> unread_tension(const Scene& scene)
 {
@@ -170,6 +183,59 @@ std::optional<std::string> shifted_surface(const Scene& scene, const ParticleSet
                        share);
 }
 
+/// How many times as dense as the fluid a body may be where pressure is solved for (measured on blocks that sink to
+/// the bottom of a basin): denser ones bounce off the last fluid below them, ever higher.
+double densest_body(Solver solver)
+{
+    return solver == Solver::Pbf ? 2.0 : 5.0;
+}
+
+/// Whether a block, seen along gravity, reaches from wall to wall.
+bool shuts_domain(const Scene& scene, const BodyShape& shape)
+{
+    const auto* block = std::get_if<BlockShape>(&shape);
+    if (block == nullptr) {
+        return false;
+    }
+    const glm::vec3 share = (block->max - block->min) / (scene.domain.max - scene.domain.min);
+    const glm::vec3 pull = glm::abs(scene.physics.gravity);
+    float covered = 1.0f;
+    for (int axis = 0; axis < static_cast<int>(scene.domain.dimensions); ++axis) {
+        covered *= pull[axis] == std::max({pull.x, pull.y, pull.z}) ? 1.0f : share[axis];
+    }
+    return covered > 0.9f;
+}
+
+/// A solve takes bodies as they move already: fluid that cannot get out of their way would have to stop them at once.
+std::optional<std::string> body_on_trapped_fluid(const Scene& scene)
+{
+    const FluidBody* fluid = eroding_fluid(scene);
+    if (scene.solver == Solver::Wcsph || fluid == nullptr) {
+        return std::nullopt;
+    }
+    const char* solver = scene.solver == Solver::Pbf ? "pbf" : "dfsph";
+    for (std::size_t s = 0; s < scene.solids.size(); ++s) {
+        const SolidBody& solid = scene.solids[s];
+        if (solid.anchor != SolidAnchor::None || solid.wind_erodes) {
+            continue;
+        }
+        const double ratio =
+            static_cast<double>(solid.rest_density) / volume_as_solid(solid) / static_cast<double>(fluid->rest_density);
+        if (ratio > densest_body(scene.solver)) {
+            return fmt::format("solid.{} is {:.3g} times as dense as the fluid, and solver \"{}\" may let it bounce on "
+                               "fluid that cannot get out of its way: up to {:g} times is well, or take \"wcsph\"",
+                               s, ratio, solver, densest_body(scene.solver));
+        }
+        if (scene.solver == Solver::Pbf && shuts_domain(scene, solid.shape)) {
+            return fmt::format(
+                "solid.{} reaches from wall to wall, and solver \"pbf\" lets it bounce on the fluid below "
+                "it, which cannot get out of its way: take \"wcsph\" or \"dfsph\"",
+                s);
+        }
+    }
+    return std::nullopt;
+}
+
 /// Columns of sand know of solids alone.
 std::optional<std::string> wet_sand(const Scene& scene)
 {
@@ -225,8 +291,9 @@ std::vector<std::string> scene_warnings(const Scene& scene, const ParticleSet& p
     std::vector<std::string> warnings;
     for (const std::optional<std::string>& warning :
          {coarse_positions(scene), idle_viscosity(scene), idle_tension(scene), unread_tension(scene),
-          idle_contact_angle(scene), unmeasured_tension(scene), idle_clamp(scene), idle_lid(scene), endless_fall(scene),
-          shifted_surface(scene, particles), wet_sand(scene), idle_anchor(scene), idle_wind(scene)}) {
+          idle_contact_angle(scene), unmeasured_tension(scene), idle_clamp(scene), idle_lid(scene), idle_color(scene),
+          endless_fall(scene), shifted_surface(scene, particles), wet_sand(scene), body_on_trapped_fluid(scene),
+          idle_anchor(scene), idle_wind(scene)}) {
         if (warning) {
             warnings.push_back(*warning);
         }

@@ -445,7 +445,8 @@ std::vector<SolidKey> make_solid_keys()
     const auto k = [](auto... arguments) { return key<SolidBody>(arguments...); };
     return joined(with_shape_keys<SolidBody>("what it is; each shape has keys of its own", {
         liquid_key<SolidBody>(ITSELF, "what it turns into: gives rest_density, viscosity, surface_tension and fluid_color the values of a liquid, unless they stand in the scene; custom: nothing"),
-        k("rest_density", FIELD(rest_density), "kg/m^3", Range{1e-3, 1e5}, "density, solid and fluid"),
+        k("rest_density", FIELD(rest_density), "kg/m^3", Range{1e-3, 1e5}, "density of the fluid"),
+        k("solid_density", FIELD(solid_density), "kg/m^3", Range{1e-3, 1e5}, "density while it is solid, 0.75 to 1.25 times that of the fluid: what is freed takes on its fluid's volume within some hundred steps, what freezes or settles keeps it; ice has 917; auto: rest_density"),
         k("viscosity", FIELD(viscosity), "Pa s", Range{0, 1e4}, "dynamic, of the fluid; auto: physics.viscosity"),
         k("surface_tension", FIELD(surface_tension), "N/m", Range{0, 1e4}, "of the fluid, as of a [[fluid]]"),
         k("friction", FIELD(friction), "Pa s", Range{0, 1e4}, "viscosity of fluid against the solid; 0 lets it slip freely"),
@@ -469,8 +470,9 @@ std::vector<SolidKey> make_solid_keys()
         k("erosion_rate", FIELD(erosion.rate), "kg/(m^2 s Pa^a)", Range{0, 1e9}, "lost where the stress is 1 Pa above the threshold"),
         k("erosion_exponent", FIELD(erosion.exponent), "", Range{0.1, 4}, "a of that law: the loss is erosion_rate (stress - threshold)^a"),
         flag<SolidBody>("deposits", FIELD(erosion.deposits), "its sediment becomes solid again where it comes to rest"),
-        k("strength_contrast", FIELD(erosion.strength_contrast), "", Range{1, 1000}, "noise makes its strongest parts so many times as strong as usual, and divides by it the strength of the weakest; strength multiplies the threshold and divides the rate; 1: all are alike"),
-        k("strength_grain", FIELD(erosion.strength_grain), "m", Range{1e-5, 1e4}, "size of that noise's coarsest lumps or layers"),
+        k("strength_contrast", FIELD(erosion.strength_contrast), "", Range{1, 1000}, "its strongest parts are so many times as strong as usual, and its weakest by as much weaker; strength multiplies the threshold and divides the rate; 1: all are alike"),
+        choice<SolidBody>("strength_from", FIELD(erosion.strength_from), {{"noise", StrengthSource::Noise}, {"color", StrengthSource::Color}}, "where it is strong: in lumps or layers of noise; or where its surface is bright, of shape \"mesh\" whose file, of a mesh (.ply) or of points, has colors: white is strongest, black weakest, what lies inside is as its nearest surface"),
+        k("strength_grain", FIELD(erosion.strength_grain), "m", Range{1e-5, 1e4}, "size of the coarsest lumps or layers of noise"),
         k("strength_layers", FIELD(erosion.strength_layers), "", PLACE, "direction across layers (strata), of any length but 0; auto: lumps"),
         choice<SolidBody>("anchor", FIELD(anchor), {{"ground", SolidAnchor::Ground}, {"all", SolidAnchor::All}, {"none", SolidAnchor::None}}, "what holds it in its place: the walls and colliders that it touches, so that pieces that are no longer connected to them break off and move as rigid bodies; all of itself, so that none ever does; nothing, so that it moves from the start, unless another solid holds it"),
         k("sliding_friction", FIELD(sliding_friction), "", Range{0, 100}, "Coulomb's coefficient, of its loose pieces on anything"),

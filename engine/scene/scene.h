@@ -163,6 +163,9 @@ enum class SolidBecomes { Fluid, Dust };
 /// What holds a solid in its place: the walls and colliders that it touches, all of itself, or nothing.
 enum class SolidAnchor { Ground, All, None };
 
+/// What makes parts of a solid stronger than others.
+enum class StrengthSource { Noise, Color };
+
 /// How flow carries a solid off (shared/hydraulic.h), and where the solid is stronger or weaker.
 struct Erodibility {
     bool erodes = false;
@@ -172,7 +175,8 @@ struct Erodibility {
     float exponent = 1.0f;           ///< a
     bool deposits = true;            ///< its sediment becomes solid again
     float strength_contrast = 1.0f; ///< the strongest is so many times as strong as usual, and the weakest a part of it
-    float strength_grain = 0.1f;    ///< m, size of the coarsest lumps, or layers
+    StrengthSource strength_from = StrengthSource::Noise;
+    float strength_grain = 0.1f;              ///< m, size of the coarsest lumps, or layers
     std::optional<glm::vec3> strength_layers; ///< across layers, of any length but 0; auto: lumps
 
     bool operator==(const Erodibility&) const = default;
@@ -181,6 +185,7 @@ struct Erodibility {
 /// A solid that stands still while something holds it, and may turn into fluid, or crumble into dust. What FluidBody
 /// says is of that fluid; its velocities are not used.
 struct SolidBody : FluidBody {
+    std::optional<float> solid_density;         ///< kg/m^3, while it is solid; auto: rest_density
     float friction = 0.0f;                      ///< of fluid against it, Pa s; 0 is free slip
     float contact_angle = 90.0f;                ///< degrees, of fluid with tension at it
     glm::vec3 solid_color{0.72f, 0.55f, 0.38f}; ///< linear RGB, while it is solid
@@ -348,6 +353,12 @@ struct Scene {
     CameraSettings camera;
     RenderSettings render;
 };
+
+/// The volume of a solid over that of the fluid that it turns into.
+[[nodiscard]] inline double volume_as_solid(const SolidBody& body)
+{
+    return static_cast<double>(body.rest_density) / static_cast<double>(body.solid_density.value_or(body.rest_density));
+}
 
 /// What holds a solid. Sand holds itself: it is no piece that breaks off, but falls grain by grain.
 [[nodiscard]] inline SolidAnchor anchor_of(const SolidBody& body)

@@ -205,6 +205,7 @@ private:
         check_filled("solid", scene_.solids);
         for (std::size_t i = 0; i < scene_.solids.size(); ++i) {
             check_front(fmt::format("solid.{}.", i), scene_.solids[i].dissolve);
+            check_solid_density(fmt::format("solid.{}.", i), scene_.solids[i]);
         }
     }
 
@@ -285,6 +286,21 @@ private:
         }
     }
 
+    void check_solid_density(const std::string& prefix, const SolidBody& solid) const
+    {
+        constexpr double least = 0.75; // farther apart than the reach of their bonds, particles would be of no piece
+        constexpr double most = 1.25;
+        const double ratio = 1.0 / volume_as_solid(solid);
+        if (ratio < least || ratio > most) {
+            fail(prefix + "solid_density", "is {} kg/m^3, but must be {} to {} times {}rest_density = {} kg/m^3",
+                 *solid.solid_density, least, most, prefix, solid.rest_density);
+        }
+        if (solid.wind_erodes && ratio != 1.0) {
+            fail(prefix + "solid_density", "is {} kg/m^3, but sand (wind_erodes) has one density, {}rest_density = {}",
+                 *solid.solid_density, prefix, solid.rest_density);
+        }
+    }
+
     void check_hydraulic() const
     {
         const FluidBody* fluid = eroding_fluid(scene_);
@@ -293,6 +309,9 @@ private:
             const std::string prefix = fmt::format("solid.{}.", i);
             if (solid.erosion.strength_layers && *solid.erosion.strength_layers == glm::vec3(0.0f)) {
                 fail(prefix + "strength_layers", "is [0, 0, 0], but must have a length");
+            }
+            if (solid.erosion.strength_from == StrengthSource::Color) {
+                check_color_strength(prefix, solid);
             }
             if (!solid.erosion.erodes) {
                 continue;
@@ -307,6 +326,18 @@ private:
                      fluid == nullptr ? "there is no [[fluid]] or [[emitter]]"
                                       : fmt::format("the first here has {} kg/m^3", fluid->rest_density));
             }
+        }
+    }
+
+    void check_color_strength(const std::string& prefix, const SolidBody& solid) const
+    {
+        if (!std::holds_alternative<MeshShape>(solid.shape)) {
+            fail(prefix + "strength_from",
+                 "is \"color\", but only a shape \"mesh\" may have colors: those of its file");
+        }
+        if (!solid.erosion.erodes) {
+            fail(prefix + "strength_from", "is \"color\", but {}erodes is false: only what flow erodes has a strength",
+                 prefix);
         }
     }
 

@@ -118,6 +118,9 @@ Simulation::Simulation(const gpu::Context& context, const ParticleSet& particles
     if (settings.options.capillarity) {
         capillarity_.emplace(context, settings.options, params_.pool_count);
     }
+    if (VolumeRelaxation::is_needed(particles)) {
+        volume_relaxation_.emplace(context);
+    }
     if (particles.release_time.empty() &&
         (settings.melting || settings.hydraulic || settings.fragments || !settings.emission.empty())) {
         throw std::logic_error("Simulation: where particles may come or change, they have release times");
@@ -338,6 +341,9 @@ Simulation::Readback Simulation::submit_steps(std::uint32_t steps, double start)
         solver_->record_step(*commands_, fluid(), static_cast<std::uint32_t>(step_ + i));
         if (fragments_) {
             fragments_->record_step(*commands_, fluid(), static_cast<std::uint32_t>(step_ + i));
+        }
+        if (volume_relaxation_) {
+            volume_relaxation_->record(*commands_, fluid());
         }
         const auto at = static_cast<float>(start + (i + 1) * fixed_dt);
         if (dust_) {
@@ -597,9 +603,10 @@ Simulation::BoundaryForceMeans Simulation::take_boundary_forces()
 
 void Simulation::enable_timings()
 {
-    const std::uint32_t scopes = solver_->scopes() + vorticity_.scopes() + (viscosity_ ? 1 : 0) + (shifting_ ? 1 : 0) +
-                                 (capillarity_ ? 1 : 0) + (dust_ ? 1 : 0) + (wind_ ? Wind::scopes() : 0) +
-                                 (fragments_ ? Fragments::scopes() : 0) + (emission_ ? emission_->scopes() : 0);
+    const std::uint32_t scopes =
+        solver_->scopes() + vorticity_.scopes() + (viscosity_ ? 1 : 0) + (shifting_ ? 1 : 0) + (capillarity_ ? 1 : 0) +
+        (dust_ ? 1 : 0) + (wind_ ? Wind::scopes() : 0) + (fragments_ ? Fragments::scopes() : 0) +
+        (volume_relaxation_ ? VolumeRelaxation::scopes() : 0) + (emission_ ? emission_->scopes() : 0);
     commands_ = std::make_unique<gpu::Commands>(*context_, max_steps_per_submission * scopes);
 }
 

@@ -21,6 +21,7 @@
 #include "sim/melting.h"
 #include "sim/neighbor_grid.h"
 #include "sim/solver.h"
+#include "sim/volume_relaxation.h"
 #include "sim/wind.h"
 
 namespace meltpoint::sim {
@@ -222,6 +223,7 @@ private:
     std::optional<Wind> wind_;
     std::optional<Hydraulic> hydraulic_;
     std::optional<Fragments> fragments_;
+    std::optional<VolumeRelaxation> volume_relaxation_; ///< where solids have another volume than their fluid
     ParticleBuffers particles_;
     NeighborGrid grid_;
     gpu::Buffer params_buffer_;

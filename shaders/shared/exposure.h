@@ -1,7 +1,7 @@
 // Where solids are exposed, after the color field of the paper (Mueller, Charypar & Gross 2003, section 3.3), here of what is
 // solid: c_i = sum_j V_j W_ij over solids and colliders, with Wendland's kernel of a support radius of its own, whatever that of
-// the fluid. The normal is n = -grad c / |grad c|, the exposed area A = 2 V |grad c|: twice, since only the solid's side of the
-// surface has particles to share it.
+// the fluid. The normal is n = -grad c / |grad c|, the exposed area A = 2 V |grad c|, V = s d^3: twice, since only the solid's
+// side of the surface has particles to share it.
 //
 // The scale of A is such that the layers of a lattice add up to a flat face along its axes (as lattice moments do for the other
 // kernels, shared/sph_params.h): the first layer has 78 % of it, the second 22 %. Faces askew to the lattice have 2 to 7 % less,

@@ -4,7 +4,7 @@
 // H is kept by particle id as a two-float (shared/two_float.h): the sun adds less in a step than the ulp of L.
 //
 // Heat flows between neighbors (Cleary & Monaghan, "Conduction Modelling Using Smoothed Particle Hydrodynamics", J. Comput. Phys.
-// 148, 1999, equation 28), with volumes V = m / rho0 that do not change:
+// 148, 1999, equation 28), with volumes V = m / rho0 at rest, rho0 of solids their own:
 //     rho0_i dH_i/dt = sum_j V_j 4 k_i k_j / (k_i + k_j) (T_j - T_i) (-W'(r) / r).
 // What i gets, j gives. W is the kernel that pressure uses. The moment of this sum is that of its gradient: its scale makes the
 // second derivative of a quadratic temperature on a lattice exact.
@@ -38,7 +38,7 @@ struct HeatParams {
 };
 
 // What conduction.comp reads of a particle, a vec4: x = T in degrees C, y = k in W/(m K), 0 where there is no heat, z = V in m^3,
-// w = 1 / rho0 in m^3/kg, 0 where the enthalpy stays.
+// w = 1 / rho0 in m^3/kg, 0 where the enthalpy stays. Solids may have another rho0 than their fluid (shared/volume_relaxation.h).
 
 // Between those who are at the same temperature nothing flows. Most of a melting solid is at its melting point, so that is the
 // common temperature, and nobody looks for heat where no cell within reach holds another one. 32-bit words of a row of cells, with

@@ -25,7 +25,14 @@ SHARED_CONSTANT uint ANCHOR_GROUND = 0u; // a wall or a collider that it touches
 SHARED_CONSTANT uint ANCHOR_ALL = 1u;    // it holds itself
 SHARED_CONSTANT uint ANCHOR_NONE = 2u;   // nothing but its neighbors
 
+// Fluid resists a body's acceleration with its own inertia, the added mass, but only a step later, for a solve takes bodies as they
+// move already: one that is lighter than that would be thrown to and fro, ever harder (Causin, Gerbeau & Nobile, "Added-mass effect
+// in the design of partitioned algorithms for fluid-structure problems", CMAME 194, 2005). So of the impulse that fluid owes a body
+// it gets a share in each step, and the rest later: none is lost.
+SHARED_FUNCTION float share_of_fluid(float mass, float displaced_mass) { return mass / (mass + displaced_mass); }
+
 struct RigidParams {
+    float fluid_density; // kg/m^3, of the heaviest fluid: of what bodies displace
     uint anchor[MAX_MATERIALS];         // ANCHOR_*
     float sliding_friction[MAX_MATERIALS]; // mu, Coulomb's, of loose solids on anything
 };

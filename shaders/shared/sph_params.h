@@ -6,7 +6,7 @@
 //
 // Colliders are boundary particles (Akinci et al. 2012): each counts in the sum with its weight s_b = V_b / d^3, where
 // V_b = 1 / sum_k W_bk over boundary particles is its share of the space that their layer takes; a fluid particle's weight
-// is 1. The energy sum_i m_i e(rho_i) is that of the fluid alone, so the pressure force, its exact derivative, is
+// is 1, a solid's that of shared/volume_relaxation.h. The energy sum_i m_i e(rho_i) is that of the fluid alone, so the pressure force, its exact derivative, is
 // -(p_i V_i^2 s_j + p_j V_j^2 s_i) grad W_ij with p_b = 0.
 //
 // Two dimensions: all particles lie in one plane, z = 0, which no force leaves by itself. Volumes are areas, masses are

@@ -92,5 +92,6 @@ void main()
     float thinness = max(1.0 - push.filling_scale * sum.w / THIN_FILLING, 0.0);
     float share = max(push.area_scale * size, push.faces * thinness); // of the face of a lattice cell
     vec3 normal = size > 0.0 ? sum.xyz / size : vec3(0.0);
-    exposure[id[i]] = share < LEAST_EXPOSURE ? vec4(0.0) : vec4(normal, share * params.lattice_volume / params.spacing);
+    float area = share * position[i].w * params.lattice_volume / params.spacing;
+    exposure[id[i]] = share < LEAST_EXPOSURE ? vec4(0.0) : vec4(normal, area);
 }

@@ -69,14 +69,16 @@ float mobility(mat3 inverse, vec3 arm, vec3 along)
     return 1.0 / body.mass + dot(moment, inverse * moment);
 }
 
-// What fluid has done to the members in this step.
+// What fluid has done to the members in this step and owes them of steps before, the share that is theirs now.
 void push_by_fluid()
 {
+    float share = share_of_fluid(body.mass, rigid.fluid_density * params.lattice_volume * float(body.count));
     mat2x3 term = mat2x3(vec3(0.0), vec3(0.0));
     for (uint m = body.first + gl_LocalInvocationIndex; m < body.first + body.count; m += WORKGROUP_SIZE) {
         uint its_id = members[m].id;
-        vec3 impulse = reactions[its_id].pressure + reactions[its_id].friction;
-        reactions[its_id] = Reaction(vec3(0.0), vec3(0.0));
+        vec3 owed = reactions[its_id].pressure + reactions[its_id].friction;
+        vec3 impulse = share * owed;
+        reactions[its_id] = Reaction(owed - impulse, vec3(0.0));
         term += mat2x3(impulse, cross(rotated(body.orientation, members[m].arm), impulse));
     }
     push(term);

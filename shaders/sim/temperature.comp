@@ -33,10 +33,11 @@ void main()
     HeatMaterial its = heat.of[material];
     vec2 h = enthalpy[id[i]];
     float k = has_heat ? conductivity(its, h.x) : 0.0;
-    float volume = holds ? position[i].w * params.lattice_volume : abs(velocity[i].w) / params.rest_density[material];
+    float specific_volume = position[i].w / params.rest_density[material]; // 1 / rho0; of solids, theirs
+    float volume = holds ? position[i].w * params.lattice_volume : abs(velocity[i].w) * specific_volume;
     bool changes = !holds && k > 0.0;
     float t = temperature(its, h);
-    thermal[i] = k > 0.0 ? vec4(t, k, volume, changes ? 1.0 / params.rest_density[material] : 0.0) : vec4(0.0);
+    thermal[i] = k > 0.0 ? vec4(t, k, volume, changes ? specific_volume : 0.0) : vec4(0.0);
     if (k > 0.0 && t != common_temperature) {
         ivec3 cell = cell_within(position[i].xyz);
         atomicOr(warm_cells[warm_row(cell.yz) + uint(cell.x) / 32u], 1u << (uint(cell.x) % 32u));

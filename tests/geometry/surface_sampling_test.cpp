@@ -112,6 +112,21 @@ TEST(SurfaceSampling, PointsPerTriangleFollowTheArea)
     }
 }
 
+TEST(SurfaceSampling, ColorsLieBetweenThoseOfTheCorners)
+{
+    TriangleMesh mesh;
+    mesh.positions = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
+    mesh.triangles = {{0, 1, 2}};
+    EXPECT_TRUE(random_points(mesh, 10, 1).colors.empty());
+    mesh.colors = {{200, 0, 0}, {0, 200, 0}, {0, 0, 200}};
+    const PointCloud cloud = random_points(mesh, 100, 1);
+    ASSERT_EQ(cloud.colors.size(), 100u);
+    for (std::size_t i = 0; i < cloud.size(); ++i) {
+        EXPECT_NEAR(static_cast<float>(cloud.colors[i].g), 200.0f * cloud.positions[i].x, 0.51f);
+        EXPECT_NEAR(static_cast<float>(cloud.colors[i].b), 200.0f * cloud.positions[i].y, 0.51f);
+    }
+}
+
 TEST(SurfaceSampling, StratifiedPointsFollowTheAreaMoreCloselyThanChance)
 {
     for (const std::uint64_t seed : {1u, 2u, 3u}) {

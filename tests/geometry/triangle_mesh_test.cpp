@@ -117,6 +117,18 @@ TEST(TriangleMesh, WeldAveragesNormalsOfASmoothSurface)
     EXPECT_NEAR(glm::distance(welded.normals[0], glm::vec3(0.0f, 0.0f, 1.0f)), 0.0f, 1e-6f);
 }
 
+TEST(TriangleMesh, WeldingKeepsColors)
+{
+    TriangleMesh mesh;
+    mesh.positions = {{9, 9, 9}, {0, 0, 0}, {1, 0, 0}, {0, 0, 0}, {0, 1, 0}}; // the first is used by nobody
+    mesh.colors = {{9, 9, 9}, {1, 0, 0}, {2, 0, 0}, {3, 0, 0}, {4, 0, 0}};
+    mesh.triangles = {{3, 2, 4}};
+    const TriangleMesh welded = weld(mesh);
+    EXPECT_EQ(welded.colors, (std::vector<glm::u8vec3>{{1, 0, 0}, {2, 0, 0}, {4, 0, 0}}));
+    mesh.colors.pop_back();
+    EXPECT_THROW(validate(mesh, "test"), Error);
+}
+
 TEST(TriangleMesh, WeldDropsDegenerateTrianglesAndUnusedVertices)
 {
     TriangleMesh mesh = right_triangle();

@@ -18,5 +18,19 @@ TEST_F(FloatingIce, DisplacesItsWeight)
     }
 }
 
+TEST_F(FloatingIce, MeltsAndTheLevelStays)
+{
+    const double level = level_after_melting(context(), {.solver = "dfsph",
+                                                         .edge = 20.586, // twenty particles of ice
+                                                         .depth = 40,
+                                                         .width = 40,
+                                                         .start = 0.917,
+                                                         .seconds = 2.66,
+                                                         .settled = 1.33,
+                                                         .melts = true});
+    RecordProperty("level", std::to_string(level));
+    EXPECT_NEAR(level, 1.0, 0.02);
+}
+
 } // namespace
 } // namespace meltpoint

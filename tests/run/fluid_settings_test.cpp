@@ -496,5 +496,34 @@ TEST(FluidSettings, MapsTheScene)
     EXPECT_NEAR(settings.params.speed_limit * settings.params.dt, 0.4f * 0.15f, 1e-5f);
 }
 
+TEST(FluidSettings, StepsOfDeepWaterAreShorter)
+{
+    Scene scene;
+    scene.solver = Solver::Dfsph;
+    scene.particles.spacing = 0.02f;
+    scene.domain.min = glm::vec3(0.0f);
+    scene.domain.max = {0.2f, 2.0f, 0.4f};
+    scene.fluids.push_back({.shape = BlockShape{glm::vec3(0.0f), {0.2f, 1.6f, 0.2f}}}); // 0.8 m, settled
+    const auto longest = [&] {
+        return fluid_settings(scene, make_particles(scene, 1'000'000)).simulation.params.longest_dt;
+    };
+    EXPECT_NEAR(longest(), 0.5 * 0.02 / std::sqrt(9.81 * 0.8), 1e-6);
+    scene.domain.periodic = {true, false, false};
+    EXPECT_NEAR(longest(), 0.5 * 0.02 / std::sqrt(9.81 * 0.8), 1e-6);
+    scene.domain.periodic = {false, true, false}; // it falls without end
+    EXPECT_FLOAT_EQ(longest(), 5e-3f);
+    scene.domain.periodic = glm::bvec3(false);
+    scene.fluids[0].shape = BlockShape{glm::vec3(0.0f), {0.2f, 0.4f, 0.2f}};
+    EXPECT_FLOAT_EQ(longest(), 5e-3f);
+    SolidBody slab; // on 0.2 m of water, with its own 0.1 m if it were some, it weighs as much as 0.8 m
+    slab.shape = BlockShape{{0.0f, 0.4f, 0.0f}, {0.2f, 0.6f, 0.2f}};
+    slab.rest_density = 4000.0f;
+    slab.anchor = SolidAnchor::None;
+    scene.solids.push_back(slab);
+    EXPECT_NEAR(longest(), 0.5 * 0.02 / std::sqrt(9.81 * 1.1), 1e-6);
+    scene.solids[0].anchor = SolidAnchor::Ground;
+    EXPECT_FLOAT_EQ(longest(), 5e-3f);
+}
+
 } // namespace
 } // namespace meltpoint

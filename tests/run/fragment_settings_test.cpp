@@ -11,7 +11,8 @@ namespace {
 
 Scene scene_with(const std::string& keys)
 {
-    return parse_scene("[[solid]]\nshape = \"block\"\nmin = [0, 0, 0]\nmax = [0.2, 0.2, 0.2]\n" + keys, "scene", ".", {});
+    return parse_scene("[[solid]]\nshape = \"block\"\nmin = [0, 0, 0]\nmax = [0.2, 0.2, 0.2]\n" + keys, "scene", ".",
+                       {});
 }
 
 TEST(FragmentSettings, AnchorsAndFrictionAreThoseOfTheMaterials)
@@ -23,6 +24,7 @@ TEST(FragmentSettings, AnchorsAndFrictionAreThoseOfTheMaterials)
     const SceneMaterials materials = scene_materials(scene);
     EXPECT_EQ(settings->params.anchor[materials.of_solid[0]], shared::ANCHOR_NONE);
     EXPECT_EQ(settings->params.sliding_friction[materials.of_solid[0]], 0.3f);
+    EXPECT_EQ(settings->params.fluid_density, 1000.0f);
     EXPECT_EQ(settings->params.anchor[materials.of_fluid[0]], shared::ANCHOR_GROUND); // what freezes
 }
 
@@ -34,7 +36,8 @@ TEST(FragmentSettings, OrdinarySolidsStandOnTheGround)
 TEST(FragmentSettings, NothingBreaksOffWhereAllHoldsItself)
 {
     EXPECT_FALSE(fragment_settings(scene_with("anchor = \"all\"\n")).has_value());
-    EXPECT_FALSE(fragment_settings(parse_scene("[[fluid]]\nshape = \"block\"\nmin = [0, 0, 0]\nmax = [1, 1, 1]\n", "scene", ".", {}))
+    EXPECT_FALSE(fragment_settings(
+                     parse_scene("[[fluid]]\nshape = \"block\"\nmin = [0, 0, 0]\nmax = [1, 1, 1]\n", "scene", ".", {}))
                      .has_value());
 }
 

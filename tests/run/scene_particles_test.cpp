@@ -72,6 +72,29 @@ TEST(SceneParticles, ABlockHasItsMassAndItsLattice)
     }
 }
 
+TEST(SceneParticles, OfASolidThatMeltsToAnotherVolumeHaveTheMassOfItsFluids)
+{
+    for (const BodyShape& shape : {BodyShape{BlockShape{{-0.5f, 0.0f, -0.5f}, {0.5f, 0.9f, 0.4f}}},
+                                   BodyShape{SphereShape{{0.1f, 0.9f, 0.0f}, 0.55f}}}) {
+        for (const float density : {917.0f, 1100.0f}) {
+            Scene scene = block_scene();
+            scene.fluids.clear();
+            SolidBody ice;
+            ice.shape = shape;
+            ice.solid_density = density;
+            scene.solids.push_back(ice);
+            const ParticleSet particles = make_particles(scene, no_limit);
+            const bool is_block = std::holds_alternative<BlockShape>(shape);
+            const double volume = is_block ? 0.81 : 4.0 / 3.0 * std::numbers::pi * 0.166375;
+            EXPECT_NEAR(total_mass(particles) / (static_cast<double>(density) * volume), 1.0, 1e-3);
+            for (std::size_t i = 0; i < particles.size(); ++i) {
+                ASSERT_NEAR(particles.mass[i], 1.0f, is_block ? 0.03f : 0.08f); // d^3 of water, as far as it fits
+                ASSERT_FLOAT_EQ(particles.weight[i], 1000.0f / density);
+            }
+        }
+    }
+}
+
 TEST(SceneParticles, BlueNoiseStartsEven)
 {
     for (const BodyShape& shape :

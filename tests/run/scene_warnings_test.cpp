@@ -165,5 +165,35 @@ TEST(SceneWarnings, ShiftingAtAFreeSurface)
     EXPECT_EQ(warning_of(scene), "");
 }
 
+TEST(SceneWarnings, BodiesOnFluidThatCannotGetOutOfTheirWay)
+{
+    Scene scene = full_square();
+    scene.fluids[0].shape = BlockShape{glm::vec3(0.0f), glm::vec3(1.0f, 0.4f, 1.0f)};
+    SolidBody body;
+    body.shape = BlockShape{{0.2f, 0.4f, 0.0f}, {0.6f, 0.8f, 1.0f}};
+    body.anchor = SolidAnchor::None;
+    scene.solids.push_back(body);
+    for (const auto& [solver, well, too_dense] :
+         {std::tuple{Solver::Dfsph, 4900.0f, 5100.0f}, {Solver::Pbf, 1900.0f, 2100.0f}}) {
+        scene.solver = solver;
+        scene.solids[0].rest_density = well;
+        EXPECT_EQ(warning_of(scene), "");
+        scene.solids[0].rest_density = too_dense;
+        EXPECT_TRUE(warning_of(scene).starts_with("solid.0 is 5.1 times as dense") ||
+                    warning_of(scene).starts_with("solid.0 is 2.1 times as dense"));
+        scene.solids[0].anchor = SolidAnchor::Ground; // it does not move
+        EXPECT_EQ(warning_of(scene), "");
+        scene.solids[0].anchor = SolidAnchor::None;
+    }
+    scene.solids[0].rest_density = 500.0f;
+    scene.solids[0].shape = BlockShape{{0.0f, 0.4f, 0.0f}, {1.0f, 0.8f, 1.0f}};
+    EXPECT_TRUE(warning_of(scene).starts_with("solid.0 reaches from wall to wall")); // of pbf
+    scene.solver = Solver::Dfsph;
+    EXPECT_EQ(warning_of(scene), "");
+    scene.solids[0].rest_density = 9000.0f;
+    scene.solver = Solver::Wcsph;
+    EXPECT_EQ(warning_of(scene), "");
+}
+
 } // namespace
 } // namespace meltpoint

@@ -616,6 +616,9 @@ Scene random_scene(std::uint64_t seed)
             solid.dissolve.speed = 0.0f;
         }
         solid.becomes = solid.melts || solid.erosion.erodes ? SolidBecomes::Fluid : solid.becomes;
+        const bool may_have_colors = solid.erosion.erodes && std::holds_alternative<MeshShape>(solid.shape);
+        solid.erosion.strength_from = may_have_colors ? solid.erosion.strength_from : StrengthSource::Noise;
+        solid.solid_density = solid.wind_erodes ? std::nullopt : std::optional(0.9f * solid.rest_density);
         solid.erosion.grain_size = std::nullopt; // grains are heavier than the fluid
     }
     scene.wind.direction = glm::vec3(scene.wind.direction.x, scene.wind.direction.y,
@@ -920,6 +923,20 @@ TEST(SceneFile, ContradictionsOfASolidAreNamed)
     };
     EXPECT_EQ(error("dissolve_direction = [0, 0, 0]"),
               "test.toml:5: key \"solid.0.dissolve_direction\" is [0, 0, 0], but must have a length");
+    EXPECT_EQ(error("rest_density = 1000\nsolid_density = 700"),
+              "test.toml:6: key \"solid.0.solid_density\" is 700 kg/m^3, but must be 0.75 to 1.25 times "
+              "solid.0.rest_density = 1000 kg/m^3");
+    EXPECT_EQ(error("rest_density = 1000\nsolid_density = 1100\nwind_erodes = true"),
+              "test.toml:6: key \"solid.0.solid_density\" is 1100 kg/m^3, but sand (wind_erodes) has one density, "
+              "solid.0.rest_density = 1000");
+    EXPECT_EQ(
+        error("erodes = true\nstrength_from = \"color\""),
+        "test.toml:6: key \"solid.0.strength_from\" is \"color\", but only a shape \"mesh\" may have colors: those "
+        "of its file");
+    EXPECT_EQ(error_of("[[solid]]\nshape = \"mesh\"\nmesh = \"rock.ply\"\nposition = [0, 1, 0]\n"
+                       "strength_from = \"color\""),
+              "test.toml:5: key \"solid.0.strength_from\" is \"color\", but solid.0.erodes is false: only what flow "
+              "erodes has a strength");
     EXPECT_NE(error("dissolve_direction = [0, 1, 0]\ndissolve_point = [0, 0, 0]")
                   .find("key \"solid.0.dissolve_direction\" is there beside solid.0.dissolve_point"),
               std::string::npos);

@@ -311,6 +311,28 @@ TEST_F(ExposureTest, LayersOfALatticeAddUpToItsFace)
     }
 }
 
+TEST_F(ExposureTest, OfASolidThatMeltsToAnotherVolumeIsItsFace)
+{
+    for (const float volume :
+         {1000.0f / 917.0f, 0.9f}) { // over that of its fluid, which its particles are weighted with
+        const float pitch = d * std::cbrt(volume);
+        ParticleSet set;
+        for (int i = 0; i < 14 * 14 * 14; ++i) {
+            add_particle(set, glm::vec3(0.5f) + pitch * (glm::vec3(i % 14, i / 14 % 14, i / 196) - 6.5f));
+            set.weight.back() = volume;
+        }
+        make_solid(set);
+        const Found found = find(set, settings());
+        double sum = 0.0;
+        for (std::size_t i = 0; i < set.size(); ++i) {
+            const glm::vec3 place = (found.particles.position[i] - 0.5f) / pitch;
+            const bool in_middle = std::max(std::abs(place.x), std::abs(place.z)) < 2.0f;
+            sum += in_middle && place.y > 3.0f ? static_cast<double>(found.exposure[i].w) : 0.0;
+        }
+        EXPECT_NEAR(sum / (16.0 * std::pow(static_cast<double>(pitch), 2)), 1.0, 0.03) << volume;
+    }
+}
+
 TEST_F(ExposureTest, LinesOfALatticeInThePlaneAddUpToItsSide)
 {
     sim::SimulationSettings its = settings();

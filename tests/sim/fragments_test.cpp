@@ -208,7 +208,7 @@ TEST_F(FragmentsTest, StepsAreTheTwins)
         for (std::size_t b = 0; b < before.size(); ++b) {
             bodies[b].contacts = before[b].contacts;
         }
-        const std::vector<glm::dvec3> no_fluid(twin.size(), glm::dvec3(0.0));
+        std::vector<glm::dvec3> no_fluid(twin.size(), glm::dvec3(0.0));
         step_bodies(twin_its, its.fragments->params, twin, bodies, no_fluid);
         simulation.advance(1);
         const ParticleSet found = simulation.download();

@@ -238,6 +238,7 @@ ParticleSet everything()
                                          : shared::pack_attributes(shared::STATE_FLUID, 2);
         set.position[i] += solid ? glm::vec3(0.0f) : 0.3f * test_spacing * (random_vector(random) - 0.5f);
         set.mass[i] *= i % 3 == 0 ? 1.1f : 1.0f;
+        set.weight[i] = solid ? 0.8f + 0.1f * static_cast<float>(i % 5) : 1.0f; // of any density
     }
     for (int i = 0; i < 100; ++i) {
         add_particle(set, glm::mix(glm::vec3(0.01f), glm::vec3(0.99f), random_vector(random)));
@@ -387,8 +388,9 @@ constexpr std::pair<std::uint32_t, float> kernels_and_ratios[] = {
 TEST_F(HeatTest, TwoHalvesOfABarMixAsTheErrorFunction)
 {
     for (const auto& [kernel, ratio] : kernels_and_ratios) {
-        for (const float contrast : {1.0f, 5.0f}) {
-            SCOPED_TRACE(testing::Message() << "kernel " << kernel << ", H/d " << ratio << ", contrast " << contrast);
+        for (const auto& [contrast, volume] : {std::pair{1.0f, 1.0f}, {5.0f, 1.0f}, {1.0f, 1000.0f / 917.0f}}) {
+            SCOPED_TRACE(testing::Message() << "kernel " << kernel << ", H/d " << ratio << ", contrast " << contrast
+                                            << ", volume " << volume << " of that as a fluid");
             constexpr std::uint32_t layers = 80;
             shared::HeatParams heat{};
             heat.of[0] = heat.of[2] = plain;
@@ -401,9 +403,12 @@ TEST_F(HeatTest, TwoHalvesOfABarMixAsTheErrorFunction)
                 const bool left = i % layers < layers / 2;
                 set.attributes[i] = shared::pack_attributes(shared::STATE_SOLID, left ? 0 : 2);
                 enthalpy[i] = static_cast<double>(plain.solid_specific_heat) * (left ? warm : cold);
+                set.position[i] *= std::cbrt(volume);
+                set.weight[i] = volume;
             }
-            HeatedDevice heated(context(), set, settings(kernel, {layers, width, width}, ratio, across_is_periodic),
-                                heat, enthalpy);
+            sim::SimulationSettings its = settings(kernel, {layers, width, width}, ratio, across_is_periodic);
+            its.params.domain_max *= std::cbrt(volume);
+            HeatedDevice heated(context(), set, its, heat, enthalpy);
             const double seconds = std::pow(6.0 * d, 2) / (4.0 * diffusivity);
             conduct_for(heated, seconds);
             const std::vector<double> found = layer_means(heated.heat.download_enthalpy(), 0, layers);
@@ -411,8 +416,8 @@ TEST_F(HeatTest, TwoHalvesOfABarMixAsTheErrorFunction)
             const double contact = (warm + b * cold) / (1.0 + b);
             double error = 0.0;
             for (std::uint32_t layer = 0; layer < layers; ++layer) {
-                const double x = (layer + 0.5 - 0.5 * layers) * d;
-                const double its_diffusivity = x < 0.0 ? diffusivity : diffusivity * static_cast<double>(contrast);
+                const double x = (layer + 0.5 - 0.5 * layers) * d * std::cbrt(static_cast<double>(volume));
+                const double its_diffusivity = diffusivity * static_cast<double>(x < 0.0 ? volume : contrast * volume);
                 const double far = x < 0.0 ? warm : cold;
                 const double exact =
                     contact + (far - contact) * std::erf(std::abs(x) / (2.0 * std::sqrt(its_diffusivity * seconds)));

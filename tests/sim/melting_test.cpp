@@ -100,6 +100,8 @@ TEST_F(MeltingTest, LooksAreTheTwins)
     Random random(12);
     for (std::size_t i = 0; i < start.size(); ++i) {
         const bool solid = shared::particle_state(start.attributes[i]) == shared::STATE_SOLID;
+        start.weight[i] =
+            solid ? 0.8f + 0.5f * static_cast<float>(random.uniform()) : start.weight[i]; // of any density
         its.melting->enthalpy.push_back(solid ? latent_heat * (1.1 * random.uniform() - 0.1)
                                               : latent_heat * (1.2 * random.uniform() - 0.3));
     }

@@ -54,9 +54,10 @@ inline std::string obj_of(const TriangleMesh& mesh)
 inline std::string ply_header(const TriangleMesh& mesh, const std::string& format)
 {
     return fmt::format("ply\nformat {} 1.0\ncomment a test\nelement vertex {}\nproperty float x\nproperty float y\n"
-                       "property float z\n{}element face {}\nproperty list uchar int vertex_indices\nend_header\n",
+                       "property float z\n{}{}element face {}\nproperty list uchar int vertex_indices\nend_header\n",
                        format, mesh.positions.size(),
                        mesh.normals.empty() ? "" : "property float nx\nproperty float ny\nproperty float nz\n",
+                       mesh.colors.empty() ? "" : "property uchar red\nproperty uchar green\nproperty uchar blue\n",
                        mesh.triangles.size());
 }
 
@@ -68,6 +69,9 @@ inline std::string ascii_ply_of(const TriangleMesh& mesh)
         text += fmt::format("{} {} {}", p.x, p.y, p.z);
         if (!mesh.normals.empty()) {
             text += fmt::format(" {} {} {}", mesh.normals[i].x, mesh.normals[i].y, mesh.normals[i].z);
+        }
+        if (!mesh.colors.empty()) {
+            text += fmt::format(" {} {} {}", mesh.colors[i].r, mesh.colors[i].g, mesh.colors[i].b);
         }
         text += "\n";
     }
