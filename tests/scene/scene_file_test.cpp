@@ -614,6 +614,7 @@ Scene random_scene(std::uint64_t seed)
             solid.melts = false;
             solid.erosion.erodes = false;
             solid.dissolve.speed = 0.0f;
+            scene.physics.gravity = {0.0f, -0.7f - static_cast<float>(random.uniform()), 0.0f}; // it comes down
         }
         solid.becomes = solid.melts || solid.erosion.erodes ? SolidBecomes::Fluid : solid.becomes;
         const bool may_have_colors = solid.erosion.erodes && std::holds_alternative<MeshShape>(solid.shape);
