@@ -129,6 +129,12 @@ float key_light_at(vec3 world, vec3 normal, bool wide)
     return wide ? lit / 9.0 : lit;
 }
 
+// light: share of the key light that arrives; presence: how much of the floor is left of its fade.
+vec3 floor_in_light(vec3 albedo, float presence, float light)
+{
+    return mix(params.background, albedo * (1.0 - FLOOR_SHADOW * (1.0 - light)), presence);
+}
+
 // What the floor looks like along a ray, or the background.
 vec3 floor_color(Ray ray)
 {
@@ -139,7 +145,7 @@ vec3 floor_color(Ray ray)
         return params.background;
     }
     float light = params.lit != 0u ? key_light_at(point, vec3(0.0, 1.0, 0.0), true) : 1.0;
-    return mix(params.background, albedo * (1.0 - FLOOR_SHADOW * (1.0 - light)), presence);
+    return floor_in_light(albedo, presence, light);
 }
 
 #endif

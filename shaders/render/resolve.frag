@@ -104,7 +104,7 @@ Surface sand_surface(int triangle, Ray ray)
     return Surface(hit, normal, color, MATTE);
 }
 
-// Color of one sample. All but the floor meet in one look-up of the shadow.
+// Color of one sample. All surfaces meet in one look-up of the shadow, which is most of the work.
 vec3 sample_color(uint visible, int i)
 {
     uint kind = visible >> SURFACE_SHIFT;
@@ -112,22 +112,31 @@ vec3 sample_color(uint visible, int i)
     Ray ray = ray_of_sample(i);
 
     Surface surface;
+    float presence = 1.0;
     if (kind == SURFACE_SPHERE) {
         surface = sphere_surface(index, ray);
     } else if (kind == SURFACE_DISC) {
         surface = disc_surface(index, ray);
     } else if (SAND && kind == SURFACE_SAND) {
         surface = sand_surface(index, ray);
+    } else if (kind == SURFACE_LINE) {
+        return params.line_color;
+    } else if (floor_hit(ray, surface.point, presence, surface.albedo)) {
+        surface.normal = vec3(0.0, 1.0, 0.0);
     } else {
-        return kind == SURFACE_LINE ? params.line_color : floor_color(ray);
+        return params.background;
     }
-    if (params.color_mode == COLOR_NORMAL) {
+    bool is_floor = kind == SURFACE_NONE;
+    if (params.color_mode == COLOR_NORMAL && !is_floor) {
         return 0.5 * surface.normal + 0.5;
     }
     if (params.lit == 0u) {
-        return surface.albedo;
+        return mix(params.background, surface.albedo, presence);
     }
-    float light = key_light_at(surface.point, surface.normal, false);
+    float light = key_light_at(surface.point, surface.normal, is_floor);
+    if (is_floor) {
+        return floor_in_light(surface.albedo, presence, light);
+    }
     return shade(surface.albedo, surface.gloss, surface.normal, to_world_direction(-ray.direction), params.light_direction, light);
 }
 
