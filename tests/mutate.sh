@@ -1613,9 +1613,9 @@ mutation "scour: the rate is linear in the excess" \
     conformance_tests 'HydraulicTest.TheRateIsAPowerOfTheExcess'
 mutation "scour: looks come half as often" \
     engine/sim/hydraulic.cpp \
-    'largest_loss = 0.25' \
-    'largest_loss = 0.5' \
-    conformance_tests 'HydraulicTest.NoLookTakesMoreThanAQuarterOfAParticle'
+    'largest_loss = 0.05' \
+    'largest_loss = 0.1' \
+    conformance_tests 'HydraulicTest.NoLookTakesMoreThanATwentiethOfAParticle'
 mutation "detach: damage goes on beyond a particle" \
     shaders/sim/detach.comp \
     '        damage[slot] = vec2(1.0, 0.0);

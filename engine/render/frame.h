@@ -30,8 +30,8 @@ struct ParticleView {
     const gpu::Buffer* id = nullptr;
     float time = 0.0f; ///< s, of the frame
 
-    /// Of each sphere, in radii of FrameSettings: float, in the particles' order; then there are ids, too. Null: all
-    /// have one size, but for dust.
+    /// Of each sphere, in radii of FrameSettings: float, in the particles' order; sand in the air is then a puff of
+    /// specks, and needs ids. Null: all have one size, but for dust.
     const gpu::Buffer* size = nullptr;
 };
 

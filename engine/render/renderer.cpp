@@ -131,7 +131,7 @@ void Renderer::draw(gpu::Commands& commands, const Frame& frame)
             draws.push_back({.pipeline = &sphere,
                              .push = gpu::push_bytes(push),
                              .bindings = {spheres_.sphere(), found.quads(), found.list(), spheres_.look(),
-                                          params.sized != 0 ? *frame.particles->id : found.list()},
+                                          frame.particles->id != nullptr ? *frame.particles->id : found.list()},
                              .arguments = &found.arguments()});
         }
         if (discs > 0) {

@@ -17,7 +17,7 @@ using gpu::read_write;
 namespace {
 
 /// Part of a particle that flow may carry off from one look to the next.
-constexpr double largest_loss = 0.25;
+constexpr double largest_loss = 0.05;
 
 /// Of passes in which a few particles walk, each alone, through the moving or the still ones.
 FluidOptions one_by_one(FluidOptions options)

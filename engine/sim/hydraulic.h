@@ -42,7 +42,7 @@ public:
                         const NeighborGrid& grid, const gpu::Buffer& release_time, const gpu::Buffer& changes,
                         double time, double seconds, double next_seconds) const;
 
-    /// s of motion, the longest from this look to the next: at the present rates nothing loses more than a quarter of
+    /// s of motion, the longest from this look to the next: at the present rates nothing loses more than a twentieth of
     /// a particle in it. Infinite where nothing erodes.
     [[nodiscard]] double longest_look() const;
 
