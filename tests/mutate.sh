@@ -1452,6 +1452,11 @@ mutation "wind: sand lost beyond the border is not counted" \
 
 # --- the sheet of sand --------------------------------------------------------------------------------------------------
 
+mutation "sand: it lands where fluid is" \
+    shaders/sim/land.comp \
+    'if (holds_fluid(place)) {' \
+    'if (false) {' \
+    conformance_tests 'SandTest.SandDoesNotLandWhereFluidIs'
 mutation "sand: it has no sheet" \
     engine/run/solid_splats.cpp \
     'material.wind_erodes ? 1 : 0' \

@@ -160,6 +160,29 @@ std::vector<Ground> ground(const Settings& settings, const shared::VisibilityPar
     return planes;
 }
 
+namespace {
+
+/// Whether fluid lies nearer to x than sand may land; along periodic axes also across the border.
+bool holds_fluid(const Settings& settings, const State& state, const glm::dvec3& x)
+{
+    const glm::dvec3 extent(settings.params.domain_max - settings.params.domain_min);
+    const double reach = static_cast<double>(shared::ROOM_TO_LAND) * static_cast<double>(settings.params.spacing);
+    for (std::size_t j = 0; j < state.size(); ++j) {
+        glm::dvec3 way = glm::abs(state.position[j] - x);
+        for (int axis = 0; axis < 3; ++axis) {
+            if ((settings.params.periodic_mask >> (2 * axis) & 1u) != 0) {
+                way[axis] = std::min(way[axis], extent[axis] - way[axis]);
+            }
+        }
+        if (shared::particle_state(state.attributes[j]) == shared::STATE_FLUID && glm::length(way) < reach) {
+            return true;
+        }
+    }
+    return false;
+}
+
+} // namespace
+
 SandChanges look_at_sand(const Settings& settings, const SandScene& scene, State& state, SandState& sand,
                          std::span<const glm::dvec4> exposure, std::span<const double> visibility, double seconds,
                          double ahead, bool slides)
@@ -255,7 +278,12 @@ SandChanges look_at_sand(const Settings& settings, const SandScene& scene, State
         const glm::ivec2 texel = texel_at(scene, before.position[i]);
         const std::uint32_t id = state.id[i];
         if (has_come_down(i) && columns.claim[index_of(scene, texel)] == id) {
-            state.position[i] = place_in_column(settings, scene, texel, next_height(settings, scene, columns, texel));
+            const glm::dvec3 place =
+                place_in_column(settings, scene, texel, next_height(settings, scene, columns, texel));
+            if (holds_fluid(settings, state, place)) {
+                continue;
+            }
+            state.position[i] = place;
             state.attributes[i] = shared::with_state(state.attributes[i], shared::STATE_SOLID);
             state.velocity[i] = glm::dvec3(0.0);
             state.weight[i] = 1.0;

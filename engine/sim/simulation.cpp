@@ -251,7 +251,7 @@ void Simulation::erode(double time)
                                    erosion_->changes(), time, seconds, next_seconds);
     }
     if (wind_) {
-        wind_->record_changes(commands, params_buffer_, particles_, *exposure_, erosion_->changes(), seconds,
+        wind_->record_changes(commands, params_buffer_, particles_, grid_, *exposure_, erosion_->changes(), seconds,
                               next_seconds);
     }
     if (emission_) {

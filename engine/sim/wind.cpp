@@ -193,7 +193,7 @@ Wind::Wind(const gpu::Context& context, const shared::SphParams& params, const W
       ground_kernel_(context, "ground", sim_ground_comp), column_top_(context, "column_top", sim_column_top_comp),
       erode_(context, "wind_erode", sim_wind_erode_comp), slide_(context, "slide", sim_slide_comp),
       alight_(context, "alight", sim_alight_comp), slide_apply_(context, "slide_apply", sim_slide_apply_comp),
-      land_(context, "land", sim_land_comp), hop_(context, "hop", sim_hop_comp),
+      land_(context, "land", sim_land_comp, fluid_constants(context.info(), {})), hop_(context, "hop", sim_hop_comp),
       params_buffer_(gpu::make_buffer<shared::WindParams>(context, 1, "wind params")),
       ground_(gpu::make_buffer<glm::vec4>(context, from_above_.texels(), "ground")),
       top_id_(gpu::make_buffer<std::uint32_t>(context, from_above_.texels(), "column tops")),
@@ -227,7 +227,8 @@ void Wind::record_surface(gpu::Commands& commands, const gpu::Buffer& params, co
 }
 
 void Wind::record_changes(gpu::Commands& commands, const gpu::Buffer& params, const ParticleBuffers& particles,
-                          const Exposure& exposure, const gpu::Buffer& changes, double seconds, double next_seconds)
+                          const NeighborGrid& grid, const Exposure& exposure, const gpu::Buffer& changes,
+                          double seconds, double next_seconds)
 {
     const gpu::Scope scope(commands, "wind");
     const std::uint32_t still = particles.count - particles.moving;
@@ -260,7 +261,7 @@ void Wind::record_changes(gpu::Commands& commands, const gpu::Buffer& params, co
                       {read(params), read(params_buffer_), read(from_above_.params()), read(ground_),
                        read(particles.id), read(top_id_), read(way_), read(claim_), read_write(rests_),
                        read_write(particles.attributes), read_write(particles.position), read_write(particles.velocity),
-                       read_write(changes)});
+                       read_write(changes), read(grid.cell_start), read(particles.position)});
 }
 
 void Wind::record_step(gpu::Commands& commands, const Fluid& fluid, const gpu::Buffer& ledger) const

@@ -76,7 +76,8 @@ public:
     /// `next_seconds` until the next one, what slides by a spacing or falls off a
     /// slope, and what has landed, counted in `changes`, shared::PoolChanges: they lie where they were yet.
     void record_changes(gpu::Commands& commands, const gpu::Buffer& params, const ParticleBuffers& particles,
-                        const Exposure& exposure, const gpu::Buffer& changes, double seconds, double next_seconds);
+                        const NeighborGrid& grid, const Exposure& exposure, const gpu::Buffer& changes, double seconds,
+                        double next_seconds);
 
     /// Sand in the air moves by the step that has just been taken. ledger: shared::Ledger.
     void record_step(gpu::Commands& commands, const Fluid& fluid, const gpu::Buffer& ledger) const;

@@ -42,6 +42,8 @@ SHARED_CONSTANT uint WAY_FALLS = 16u; // added to the others: it falls there, in
 SHARED_CONSTANT float LEAST_LAUNCH = 0.7f;   // speed of the slowest over that of the mean; the fastest has as much more
 SHARED_CONSTANT float FLYING_VOLUME = 0.06f; // that is seen of a particle while it hops: its sand is spread out
 
+SHARED_CONSTANT float ROOM_TO_LAND = 0.85f; // spacings: sand that has come down waits while fluid is nearer to its place
+
 struct WindMaterial {
     uint erodes;           // 1 of sand
     float pick_up;         // kg/(m^2 s), of a flat bed in full wind, were there no threshold

@@ -309,6 +309,42 @@ TEST_F(SandTest, WallsStopSandInTheAir)
     }
 }
 
+TEST_F(SandTest, SandDoesNotLandWhereFluidIs)
+{
+    sim::SimulationSettings its = settings(0.6, 3000.0);
+    its.params.dt = 2e-3f;
+    its.params.rest_density[1] = test_rest_density;
+    ParticleSet start;
+    add_block(start, {10, 2, 20}, glm::vec3(0.0f));
+    const std::size_t sand = start.size();
+    add_block(start, {10, 2, 20}, glm::vec3(10.0f * test_spacing, 0.0f, 0.0f));
+    for (std::size_t i = sand; i < start.size(); ++i) { // a pool on its lee
+        start.attributes[i] = shared::pack_attributes(shared::STATE_FLUID, 1);
+    }
+    sim::Simulation simulation(context(), start, its);
+    std::size_t landed = 0;
+    double nearest = std::numeric_limits<double>::infinity(); // spacings, of fluid to where sand lands
+    for (int step = 0; step < 300; ++step) {
+        const ParticleSet before = simulation.download();
+        simulation.advance(1);
+        const ParticleSet after = simulation.download();
+        for (std::size_t i = 0; i < sand; ++i) {
+            if (shared::particle_state(before.attributes[i]) != shared::STATE_DUST ||
+                shared::particle_state(after.attributes[i]) != shared::STATE_SOLID) {
+                continue;
+            }
+            ++landed;
+            for (std::size_t j = sand; j < start.size(); ++j) {
+                const double distance = static_cast<double>(glm::distance(after.position[i], before.position[j]));
+                nearest = std::min(nearest, distance / static_cast<double>(test_spacing));
+            }
+        }
+    }
+    EXPECT_GT(landed, 30u);
+    EXPECT_GE(nearest, 0.85 * (1.0 - 1e-5));
+    EXPECT_LT(nearest, 1.2); // they do meet
+}
+
 TEST_F(SandTest, TheCrestOfADuneMovesDownwind)
 {
     sim::SimulationSettings its = settings(0.5, 3000.0);
