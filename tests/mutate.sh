@@ -1773,11 +1773,21 @@ mutation "solid splats: surface splats grow out of their solid" \
     '- recession * normal;' \
     '+ recession * normal;' \
     conformance_tests 'SolidSplatsTest.TheDeviceConformsToTheTwin'
-mutation "solid splats: surface splats go at once" \
+mutation "solid splats: surface splats go before they have sunk" \
     shaders/render/surface_splat.comp \
-    '(1.0 - smooth_ramp(DYING_FROM, 1.0, worst_progress))' \
-    '(worst_progress < 0.75 ? 1.0 : 0.0)' \
-    image_tests '*SolidFramesTest.NothingPops/melt_cube'
+    '(1.0 - smooth_ramp(SHRINKING_FROM, 1.0, worst_progress))' \
+    '(worst_progress < SINKING_FROM ? 1.0 : 0.0)' \
+    conformance_tests 'SolidSplatsTest.SurfaceSplatsSinkBelowParticleSplatsBeforeTheyShrink'
+mutation "solid splats: surface splats stand where others have gone" \
+    shaders/render/surface_splat.comp \
+    '1.0 - smooth_ramp(BARE_FULLY, BARE_FROM, here.filling / start)' \
+    '0.0' \
+    conformance_tests 'SolidSplatsTest.SurfaceSplatsDoNotStandOutOfWhatIsLeft'
+mutation "solid splats: surface splats do not get wet" \
+    shaders/render/surface_splat.comp \
+    'mix(1.0, splat.wet_albedo, wetness)' \
+    '1.0' \
+    conformance_tests 'SolidSplatsTest.TheDeviceConformsToTheTwin'
 mutation "solid splats: surface splats come back with their hosts" \
     shaders/render/surface_splat.comp \
     'worst_progress >= 1.0' \

@@ -140,36 +140,54 @@ bool is_torn(const shared::HostedSplat& splat, const State& state)
     return stretch > static_cast<double>(shared::MOST_STRETCH * splat.span);
 }
 
-/// How much there is of a hosted splat.
-double left_of(const shared::HostedSplat& splat, const std::vector<double>& left)
+/// What was so wet before is after some seconds, where fluid fills so much around it.
+double wetness_after(double seconds, double before, double fluid)
 {
-    const double least = std::min({left[splat.host.x], left[splat.host.y], left[splat.host.z]});
-    return 1.0 - smooth_ramp(shared::DYING_FROM, 1.0f, 1.0 - std::max(least, 0.0));
+    const double target = std::min(fluid / static_cast<double>(shared::WET_FILLING), 1.0);
+    const float time = target > before ? shared::WETTING_TIME : shared::DRYING_TIME;
+    return target + (before - target) * std::exp(-seconds / static_cast<double>(time));
 }
 
-Disc hosted_disc(const shared::HostedSplat& splat, double spacing, const State& state, const SolidSplats& found)
+/// Its disc, and what it keeps.
+Disc hosted_disc(const shared::HostedSplat& splat, double spacing, const State& state, const SolidSplats& found,
+                 double seconds, KeptOfHosted& kept)
 {
     const glm::dvec3 a = state.position[splat.host.x];
     const glm::dvec3 first = state.position[splat.host.y] - a;
     const glm::dvec3 second = state.position[splat.host.z] - a;
     const glm::dmat3 frame(first, second, glm::cross(first, second) / spacing);
     double mean = 0.0;
-    double wet = 0.0;
+    double worst = 0.0; // of the first host to go
     for (int k = 0; k < 3; ++k) {
         const double progress = 1.0 - std::max(found.left[splat.host[k]], 0.0);
-        const double weight = static_cast<double>(splat.weight[k]);
-        mean += weight * progress;
-        wet += weight * found.wet[splat.host[k]];
+        mean += static_cast<double>(splat.weight[k]) * progress;
+        worst = std::max(worst, progress);
     }
     const double recession = static_cast<double>(shared::RECESSION) * spacing * mean;
     const glm::dvec3 normal = glm::normalize(frame * glm::dvec3(splat.normal));
-    return {.center = a + frame * glm::dvec3(splat.offset) - recession * normal,
-            .radius = static_cast<double>(splat.radius) * left_of(splat, found.left),
-            .normal = normal,
-            .color = glm::dvec3(splat.color) * (1.0 + wet * (static_cast<double>(splat.wet_albedo) - 1.0)),
+    const glm::dvec3 center = a + frame * glm::dvec3(splat.offset) - recession * normal;
+
+    const Field field = field_at(center, spacing, state, found.left);
+    kept.start = kept.start > 0.0 ? kept.start : std::max(field.filling, 1e-6);
+    kept.wet = wetness_after(seconds, kept.wet, field.fluid);
+    const double bare = 1.0 - smooth_ramp(shared::BARE_FULLY, shared::BARE_FROM, field.filling / kept.start);
+    const double sinking = std::max(smooth_ramp(shared::SINKING_FROM, shared::SINKING_UNTIL, worst), bare);
+    kept.gone = kept.gone || worst >= 1.0 || is_torn(splat, state);
+    kept.cover = kept.gone ? 0.0 : 1.0 - sinking;
+    const glm::dvec3 up = -field.gradient / std::max(glm::length(field.gradient), 1e-6);
+    const double area = -2.0 * spacing * glm::dot(field.gradient, normal); // A / d^2, seen along its normal
+    const double turning = sinking * smooth_ramp(0.0f, shared::EXPOSED_FROM, area);
+    const double rise =
+        depth_below_surface(field.filling) - static_cast<double>(shared::PARTICLE_SPLAT_DEPTH + shared::SINKING_DEPTH);
+    return {.center = center + turning * std::clamp(rise, -1.0, 1.0) * spacing * up,
+            .radius = kept.gone ? 0.0
+                                : static_cast<double>(splat.radius) *
+                                      (1.0 - smooth_ramp(shared::SHRINKING_FROM, 1.0f, worst)),
+            .normal = glm::normalize(glm::mix(normal, up, turning)),
+            .color = glm::dvec3(splat.color) * (1.0 + kept.wet * (static_cast<double>(splat.wet_albedo) - 1.0)),
             .bend = frame * glm::dvec3(splat.edge),
             .edge = static_cast<double>(splat.edge_distance) - recession,
-            .wet = wet};
+            .wet = kept.wet};
 }
 
 } // namespace
@@ -182,17 +200,20 @@ SolidSplats solid_splats(const Settings& settings, const shared::SolidSplatParam
                       .size = std::vector<double>(state.size()),
                       .wet = before.wet,
                       .start = before.start,
-                      .gone = before.gone,
+                      .kept = before.kept,
                       .particle = std::vector<Disc>(state.size())};
     found.wet.resize(state.size(), 0.0);
     found.start.resize(state.size(), 0.0);
-    found.gone.resize(sources.hosted.size(), false);
+    found.kept.resize(sources.hosted.size());
     for (std::size_t i = 0; i < state.size(); ++i) {
         const std::uint32_t its_state = shared::particle_state(state.attributes[i]);
         found.left[i] = its_state == shared::STATE_SOLID   ? 1.0 - progress(splats, state, sources, i)
                         : its_state == shared::STATE_FLUID ? -1.0
                                                            : 0.0;
         found.size[i] = ball_size(splats, state, sources, i);
+    }
+    for (std::size_t k = 0; k < sources.hosted.size(); ++k) {
+        found.hosted.push_back(hosted_disc(sources.hosted[k], spacing, state, found, sources.seconds, found.kept[k]));
     }
     parallel_for(state.size(), [&](std::size_t i) {
         if (found.left[i] <= 0.0) {
@@ -210,14 +231,11 @@ SolidSplats solid_splats(const Settings& settings, const shared::SolidSplatParam
         }
         const double eroded =
             smooth_ramp(shared::ERODED_FROM, shared::ERODED_FULLY, 1.0 - field.filling / found.start[i]);
-        const double target = std::min(field.fluid / static_cast<double>(shared::WET_FILLING), 1.0);
-        const float time = target > found.wet[i] ? shared::WETTING_TIME : shared::DRYING_TIME;
-        found.wet[i] = target + (found.wet[i] - target) * std::exp(-sources.seconds / static_cast<double>(time));
+        found.wet[i] = wetness_after(sources.seconds, found.wet[i], field.fluid);
 
         const std::uint32_t material = shared::particle_material(state.attributes[i]);
         const std::uint32_t cover = sources.cover[i];
-        const double covered =
-            cover == shared::NO_COVER || found.gone[cover] ? 0.0 : left_of(sources.hosted[cover], found.left);
+        const double covered = cover == shared::NO_COVER ? 0.0 : found.kept[cover].cover;
         const double depth = depth_below_surface(field.filling) - static_cast<double>(shared::PARTICLE_SPLAT_DEPTH) -
                              static_cast<double>(shared::COVERED_DEPTH) * covered;
         Disc& disc = found.particle[i];
@@ -234,14 +252,6 @@ SolidSplats solid_splats(const Settings& settings, const shared::SolidSplatParam
             found.particle[i].bend = bend(found.particle, state, i, spacing);
         }
     });
-    for (std::size_t k = 0; k < sources.hosted.size(); ++k) {
-        const shared::HostedSplat& splat = sources.hosted[k];
-        found.hosted.push_back(hosted_disc(splat, spacing, state, found));
-        found.gone[k] = found.gone[k] || left_of(splat, found.left) <= 0.0 || is_torn(splat, state);
-        if (found.gone[k]) {
-            found.hosted.back().radius = 0.0;
-        }
-    }
     return found;
 }
 

@@ -30,18 +30,26 @@ struct SplatSources {
     double seconds = 0.0;                 ///< since the frame before
 };
 
+/// What a hosted splat carries from frame to frame.
+struct KeptOfHosted {
+    double start = 0.0; ///< c where it lay in the first frame; 0 before
+    double wet = 0.0;   ///< 0 to 1
+    double cover = 0.0; ///< how much it keeps particle splats below itself, 0 to 1
+    bool gone = false;  ///< a host of its was freed, or they have parted
+};
+
 /// By the index of particles in their state, which is their id, but for the hosted ones.
 struct SolidSplats {
-    std::vector<double> left;   ///< 1 - progress of solids, -1 of fluid, else 0
-    std::vector<double> size;   ///< of balls, in radii of a particle
-    std::vector<double> wet;    ///< 0 to 1
-    std::vector<double> start;  ///< c of solids in the first frame that has them
-    std::vector<bool> gone;     ///< of hosted ones: a host of theirs was freed
-    std::vector<Disc> particle; ///< of each
+    std::vector<double> left;       ///< 1 - progress of solids, -1 of fluid, else 0
+    std::vector<double> size;       ///< of balls, in radii of a particle
+    std::vector<double> wet;        ///< 0 to 1
+    std::vector<double> start;      ///< c of solids in the first frame that has them
+    std::vector<KeptOfHosted> kept; ///< of hosted ones
+    std::vector<Disc> particle;     ///< of each
     std::vector<Disc> hosted;
 };
 
-/// Twin of render/solid_progress.comp, particle_splat.comp, bend_splat.comp and surface_splat.comp. before:
+/// Twin of render/solid_progress.comp, surface_splat.comp, particle_splat.comp and bend_splat.comp. before:
 /// of the frame before; empty vectors where there is none.
 [[nodiscard]] SolidSplats solid_splats(const Settings& settings, const shared::SolidSplatParams& splats,
                                        const State& state, const SplatSources& sources, const SolidSplats& before);

@@ -31,7 +31,7 @@ SolidSplats::SolidSplats(const gpu::Context& context, const shared::SolidSplatPa
       progress_(context, "solid_progress", render_solid_progress_comp),
       particle_splat_(context, "particle_splat", render_particle_splat_comp, texel_constants(context.info())),
       bend_splat_(context, "bend_splat", render_bend_splat_comp),
-      surface_splat_(context, "surface_splat", render_surface_splat_comp),
+      surface_splat_(context, "surface_splat", render_surface_splat_comp, texel_constants(context.info())),
       params_(gpu::make_buffer<shared::SolidSplatParams>(context, 1, "solid splat params")),
       hosted_(gpu::make_buffer<shared::HostedSplat>(context, hosted.size(), "hosted splats")),
       cover_(gpu::make_buffer<std::uint32_t>(context, pool_, "cover")),
@@ -74,19 +74,20 @@ void SolidSplats::record(gpu::Commands& commands, const SolidView& view, const D
     if (sand_) {
         sand_->record(commands, *view.sand, particles, view.params, params_, place_, living_, size_, push.seconds);
     }
+    if (hosted_count_ > 0) {
+        commands.dispatch(surface_splat_, hosted_count_, push,
+                          {read(view.params), read(view.cell_start), read(living_), read(living_), read_write(hosted_),
+                           read(place_), write(discs.position()), write(discs.normal()), write(discs.color()),
+                           write(discs.bend())});
+    }
     commands.dispatch(particle_splat_, pool_, push,
                       {read(view.params), read(params_), read(view.cell_start), read(living_), read(living_),
                        read(particles.id), read(particles.attributes), read_write(kept_), read_write(size_),
-                       read(place_), read(hosted_), read(cover_), write(discs.position()), write(discs.normal()),
+                       read(hosted_), read(cover_), write(discs.position()), write(discs.normal()),
                        write(discs.color()), write(discs.bend())});
     commands.dispatch(bend_splat_, pool_, push,
                       {read(view.params), read(view.cell_start), read(living_), read(discs.position()),
                        read(discs.normal()), read_write(discs.bend())});
-    if (hosted_count_ > 0) {
-        commands.dispatch(surface_splat_, hosted_count_, push,
-                          {read(view.params), read_write(hosted_), read(place_), read(living_), read(kept_),
-                           write(discs.position()), write(discs.normal()), write(discs.color()), write(discs.bend())});
-    }
 }
 
 } // namespace meltpoint::render

@@ -250,7 +250,8 @@ SolidSurface make_solid_surface(const Scene& scene, const ParticleSet& particles
         std::vector<std::optional<shared::HostedSplat>> hosted(samples.cloud.size());
         const float radius = shared::SURFACE_SPLAT_RADIUS * static_cast<float>(samples.spacing);
         const std::vector<Edge> edges =
-            find_edges(samples.cloud, static_cast<double>(radius) + static_cast<double>(shared::RECESSION) * spacing);
+            find_edges(samples.cloud, static_cast<double>(radius) +
+                                          static_cast<double>(shared::RECESSION + shared::SINKING_DEPTH) * spacing);
         parallel_for(hosted.size(), [&](std::size_t i) {
             hosted[i] = host(solids, spacing, glm::dvec3(samples.cloud.positions[i]),
                              glm::dvec3(samples.cloud.normals[i]), edges[i]);

@@ -51,4 +51,11 @@ SolidField solid_field(vec3 x)
     return field;
 }
 
+// What was so wet before is after some seconds, where fluid fills so much around it.
+float wetness_after(float seconds, float before, float fluid)
+{
+    float target = min(fluid / WET_FILLING, 1.0);
+    return target + (before - target) * exp(-seconds / (target > before ? WETTING_TIME : DRYING_TIME));
+}
+
 #endif

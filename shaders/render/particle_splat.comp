@@ -16,26 +16,14 @@ layout(set = 0, binding = 5, scalar) readonly buffer Id { uint id[]; };
 layout(set = 0, binding = 6, scalar) readonly buffer Attributes { uint attributes[]; };
 layout(set = 0, binding = 7, scalar) buffer Kept { vec2 kept[]; }; // by id: how wet, 0 .. 1, and c at the start; 0: none then
 layout(set = 0, binding = 8, scalar) buffer Size { float size[]; }; // of balls
-layout(set = 0, binding = 9, scalar) readonly buffer Place { uint place[]; }; // by id
-layout(set = 0, binding = 10, scalar) readonly buffer Hosted { HostedSplat hosted[]; };
-layout(set = 0, binding = 11, scalar) readonly buffer Cover { uint cover[]; }; // by id: a hosted splat, or NO_COVER
-layout(set = 0, binding = 12, scalar) writeonly buffer DiscPosition { vec4 disc_position[]; };
-layout(set = 0, binding = 13, scalar) writeonly buffer DiscNormal { vec4 disc_normal[]; };
-layout(set = 0, binding = 14, scalar) writeonly buffer DiscColor { vec4 disc_color[]; };
-layout(set = 0, binding = 15, scalar) writeonly buffer DiscBend { vec4 disc_bend[]; };
+layout(set = 0, binding = 9, scalar) readonly buffer Hosted { HostedSplat hosted[]; };
+layout(set = 0, binding = 10, scalar) readonly buffer Cover { uint cover[]; }; // by id: a hosted splat, or NO_COVER
+layout(set = 0, binding = 11, scalar) writeonly buffer DiscPosition { vec4 disc_position[]; };
+layout(set = 0, binding = 12, scalar) writeonly buffer DiscNormal { vec4 disc_normal[]; };
+layout(set = 0, binding = 13, scalar) writeonly buffer DiscColor { vec4 disc_color[]; };
+layout(set = 0, binding = 14, scalar) writeonly buffer DiscBend { vec4 disc_bend[]; };
 
 #include "include/solid_field.glsl"
-
-// How much there is of the surface splat that covers a particle.
-float cover_of(uint slot)
-{
-    if (cover[slot] == NO_COVER || hosted[cover[slot]].radius <= 0.0) {
-        return 0.0;
-    }
-    uvec3 host = hosted[cover[slot]].host;
-    float left = min(min(living[place[host.x]].w, living[place[host.y]].w), living[place[host.z]].w);
-    return 1.0 - smooth_ramp(DYING_FROM, 1.0, 1.0 - max(left, 0.0));
-}
 
 void main()
 {
@@ -64,15 +52,13 @@ void main()
         return;
     }
     float eroded = smooth_ramp(ERODED_FROM, ERODED_FULLY, 1.0 - here.filling / kept[slot].y);
-    float target = min(here.fluid / WET_FILLING, 1.0);
-    float before = kept[slot].x;
-    float now = target + (before - target) * exp(-push.seconds / (target > before ? WETTING_TIME : DRYING_TIME));
-    kept[slot].x = now;
+    float wetness = wetness_after(push.seconds, kept[slot].x, here.fluid);
+    kept[slot].x = wetness;
 
     float steepness = length(here.gradient);
     vec3 normal = -here.gradient / steepness;
     float depth = depth_below_surface(here.filling);
-    float covered = cover_of(slot);
+    float covered = cover[slot] == NO_COVER ? 0.0 : hosted[cover[slot]].cover;
     float sunk = PARTICLE_SPLAT_DEPTH + COVERED_DEPTH * covered;
     vec3 center = x + (depth - sunk) * params.spacing * normal;
     float radius = PARTICLE_SPLAT_RADIUS * params.spacing * exposed * (1.0 - dying) *
@@ -80,6 +66,6 @@ void main()
     uint material = particle_material(attributes[i]);
     disc_position[disc] = vec4(center, radius);
     disc_normal[disc] = vec4(normal, DISC_BENT);
-    disc_color[disc] = vec4(splats.color[material] * mix(1.0, splats.wet_albedo[material], now), 1.0);
-    disc_bend[disc] = vec4(0.0, 0.0, 0.0, now);
+    disc_color[disc] = vec4(splats.color[material] * mix(1.0, splats.wet_albedo[material], wetness), 1.0);
+    disc_bend[disc] = vec4(0.0, 0.0, 0.0, wetness);
 }

@@ -8,14 +8,17 @@
 
 layout(push_constant, scalar) uniform Push { SolidSplatPush push; };
 layout(set = 0, binding = 0, scalar) uniform Params { SphParams params; };
-layout(set = 0, binding = 1, scalar) buffer Hosted { HostedSplat hosted[]; };
-layout(set = 0, binding = 2, scalar) readonly buffer Place { uint place[]; };   // by id
-layout(set = 0, binding = 3, scalar) readonly buffer Living { vec4 living[]; }; // w: 1 - p of solids, else at most 0
-layout(set = 0, binding = 4, scalar) readonly buffer Kept { vec2 kept[]; }; // by id: how wet, ...
-layout(set = 0, binding = 5, scalar) writeonly buffer DiscPosition { vec4 disc_position[]; };
-layout(set = 0, binding = 6, scalar) writeonly buffer DiscNormal { vec4 disc_normal[]; };
-layout(set = 0, binding = 7, scalar) writeonly buffer DiscColor { vec4 disc_color[]; };
-layout(set = 0, binding = 8, scalar) writeonly buffer DiscBend { vec4 disc_bend[]; };
+layout(set = 0, binding = 1, scalar) readonly buffer CellStart { uint cell_start[]; };
+layout(set = 0, binding = 2, scalar) readonly buffer Living { vec4 living[]; }; // w: 1 - p of solids, else at most 0
+layout(set = 0, binding = 3) uniform textureBuffer living_texels;
+layout(set = 0, binding = 4, scalar) buffer Hosted { HostedSplat hosted[]; };
+layout(set = 0, binding = 5, scalar) readonly buffer Place { uint place[]; }; // by id
+layout(set = 0, binding = 6, scalar) writeonly buffer DiscPosition { vec4 disc_position[]; };
+layout(set = 0, binding = 7, scalar) writeonly buffer DiscNormal { vec4 disc_normal[]; };
+layout(set = 0, binding = 8, scalar) writeonly buffer DiscColor { vec4 disc_color[]; };
+layout(set = 0, binding = 9, scalar) writeonly buffer DiscBend { vec4 disc_bend[]; };
+
+#include "include/solid_field.glsl"
 
 void main()
 {
@@ -35,12 +38,26 @@ void main()
     vec3 normal = normalize(frame * splat.normal);
     float recession = RECESSION * params.spacing * mean_progress;
     vec3 center = a.xyz + frame * splat.offset - recession * normal;
-    float radius = splat.radius * (1.0 - smooth_ramp(DYING_FROM, 1.0, worst_progress));
+
+    SolidField here = solid_field(center);
+    float start = splat.filling == 0.0 ? max(here.filling, 1e-6) : splat.filling;
+    float sinking = max(smooth_ramp(SINKING_FROM, SINKING_UNTIL, worst_progress),
+                        1.0 - smooth_ramp(BARE_FULLY, BARE_FROM, here.filling / start));
+    vec3 up = -here.gradient / max(length(here.gradient), 1e-6);
+    float turning = sinking * smooth_ramp(0.0, EXPOSED_FROM, -2.0 * params.spacing * dot(here.gradient, normal));
+    float rise = depth_below_surface(here.filling) - PARTICLE_SPLAT_DEPTH - SINKING_DEPTH;
+    center += turning * clamp(rise, -1.0, 1.0) * params.spacing * up;
+    normal = normalize(mix(normal, up, turning));
+
+    float radius = splat.radius * (1.0 - smooth_ramp(SHRINKING_FROM, 1.0, worst_progress));
     float stretch = max(max(length(first), length(second)), length(second - first));
     if (worst_progress >= 1.0 || stretch > MOST_STRETCH * splat.span) {
         hosted[i].radius = radius = 0.0;
     }
-    float wetness = dot(splat.weight, vec3(kept[splat.host.x].x, kept[splat.host.y].x, kept[splat.host.z].x));
+    float wetness = wetness_after(push.seconds, splat.wetness, here.fluid);
+    hosted[i].filling = start;
+    hosted[i].wetness = wetness;
+    hosted[i].cover = radius > 0.0 ? 1.0 - sinking : 0.0;
 
     uint disc = push.first_hosted + i;
     disc_position[disc] = vec4(center, radius);

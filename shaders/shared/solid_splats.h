@@ -15,7 +15,9 @@
 // three solid particles below it: it moves and turns with them, recedes by their mean progress, and is gone with the first of them, or
 // when they part, as those of sand that slides.
 // At a sharp edge its disc is cut off, where the next face is, which recedes as well. Below it, particle splats keep out of its
-// way, for the steps of a lattice are not the shape that it fills; there are none before something has gone nearby, and they come up as it shrinks. Whose host was ever freed is gone for good.
+// way, for the steps of a lattice are not the shape that it fills; there are none before something has gone nearby. When the first
+// of its hosts is about to go, or what is left has drawn back from where it lies, it sinks to the surface where c = 1/2 and turns
+// as that does, and the particle splats come up over it: nobody sees it shrink. Whose host was ever freed is gone for good.
 //
 // What is too thin for a surface (a chain, a lone particle) is drawn as balls. What melts or is washed away grows into its ball
 // while it takes on the color of its fluid; what a front frees does before, inside of the solid.
@@ -47,7 +49,17 @@ SHARED_CONSTANT float SURFACE_SPLAT_SPACING = 0.5f;  // of surface splats, in sp
 SHARED_CONSTANT float SURFACE_SPLAT_RADIUS = 1.1f;   // in spacings of their own
 SHARED_CONSTANT float RECESSION = 1.0f;              // spacings, of a surface splat whose hosts are about to go
 SHARED_CONSTANT float MOST_STRETCH = 1.5f;            // spans, of a surface splat whose hosts have parted: then it is gone
-SHARED_CONSTANT float DYING_FROM = 0.5f;             // progress beyond which splats shrink
+SHARED_CONSTANT float DYING_FROM = 0.5f;             // progress beyond which particle splats shrink
+
+// Progress of the first host to go at which a surface splat begins to sink, has sunk, and begins to shrink.
+SHARED_CONSTANT float SINKING_FROM = 0.5f;
+SHARED_CONSTANT float SINKING_UNTIL = 0.9f;
+SHARED_CONSTANT float SHRINKING_FROM = 0.8f;
+SHARED_CONSTANT float SINKING_DEPTH = 0.1f; // spacings, below particle splats
+// c where it lies, of that at the start, at which it begins to sink, and has sunk: it would stand out of what is left.
+SHARED_CONSTANT float BARE_FROM = 0.8f;
+SHARED_CONSTANT float BARE_FULLY = 0.5f;
+
 
 // Spacings: a disc bends as those so near to it do.
 SHARED_CONSTANT float BEND_REACH = 2.0f;
@@ -95,6 +107,9 @@ struct HostedSplat {
     float radius; // m
     float wet_albedo;
     float span; // m, the longest way between two of its hosts at the start
+    float filling; // c where it lay in the first frame; 0 before
+    float wetness; // 0 .. 1
+    float cover;   // how much it keeps particle splats below itself, 0 .. 1
 };
 
 // 0 .. 1, steady and without corners (Hermite), of x from low to high.

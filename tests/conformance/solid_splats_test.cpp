@@ -117,7 +117,7 @@ protected:
                                      .size = std::vector<double>(count),
                                      .wet = std::vector<double>(count),
                                      .start = {},
-                                     .gone = {},
+                                     .kept = {},
                                      .particle = {},
                                      .hosted = {}};
         found.particle.resize(count);
@@ -253,6 +253,18 @@ protected:
 
     /// Id of the particle in the middle of a layer, from the top down.
     static std::size_t in_middle(std::size_t layer) { return 4 + 9 * (5 - layer) + 9 * 6 * 4; }
+
+    /// A surface splat half a spacing above the particle in the middle of the first layer.
+    static shared::HostedSplat in_top_face()
+    {
+        const auto host = static_cast<std::uint32_t>(in_middle(0));
+        return {.host = {host, host + 1, host + 54}, // axes: x, z, -y
+                .weight = glm::vec3(1.0f / 3.0f),
+                .offset = {0.0f, 0.0f, -0.5f},
+                .normal = {0.0f, 0.0f, -1.0f},
+                .radius = 0.55f * d,
+                .span = 1.5f * d};
+    }
 };
 
 TEST_F(SolidSplatsTest, TheDeviceConformsToTheTwin)
@@ -340,6 +352,55 @@ TEST_F(SolidSplatsTest, TheSurfaceRecedesSteadilyFromLayerToLayer)
         EXPECT_LT(height, previous);
         previous = height;
     }
+}
+
+TEST_F(SolidSplatsTest, SurfaceSplatsSinkBelowParticleSplatsBeforeTheyShrink)
+{
+    const double spacing = static_cast<double>(d);
+    double previous = 0.0;
+    for (int step = 0; step < 20; ++step) {
+        const double melted = 0.05 * step;
+        Solids solids = layered_block({melted});
+        solids.hosted.push_back(in_top_face());
+        solids.cover[in_middle(0)] = solids.cover[in_middle(1)] = 0;
+        const reference::SolidSplats found = on_device(solids);
+        const reference::Disc& surface = found.hosted[0];
+        double highest = -1e9;
+        for (const std::size_t layer : {0, 1}) {
+            const reference::Disc& disc = found.particle[in_middle(layer)];
+            highest = std::max(highest, disc.radius > 0.75 * spacing ? disc.center.y : -1e9);
+        }
+        if (melted < 0.5) {
+            EXPECT_GT(surface.center.y, highest + 0.2 * spacing) << melted;
+        }
+        if (surface.radius < 0.99 * static_cast<double>(in_top_face().radius)) {
+            EXPECT_LT(surface.center.y, highest - 0.05 * spacing) << melted;
+        }
+        if (step > 0) {
+            EXPECT_LT(surface.center.y, previous);
+            EXPECT_GT(surface.center.y, previous - 0.2 * spacing);
+        }
+        EXPECT_GT(surface.normal.y, 0.999);
+        previous = surface.center.y;
+    }
+}
+
+// At the edge of what is left, where those beside it have gone.
+TEST_F(SolidSplatsTest, SurfaceSplatsDoNotStandOutOfWhatIsLeft)
+{
+    Solids solids = layered_block({});
+    solids.hosted.push_back(in_top_face());
+    solids.hosted[0].offset.x = -0.3f;
+    for (std::size_t i = 0; i < solids.damage.size(); ++i) {
+        solids.damage[i] = i / 9 % 6 >= 3 && i % 9 < 4 ? 1.0 : 0.0;
+    }
+    const reference::Disc before = on_device(layered_block({}), 1).particle[in_middle(0)];
+    const reference::Disc whole = on_device(solids, 1, 1e-3).hosted[0];
+    const reference::Disc after = on_device(solids, 2, 1e-3).hosted[0];
+    EXPECT_GT(whole.center.y, before.center.y);
+    EXPECT_EQ(after.radius, whole.radius);
+    EXPECT_LT(after.center.y, whole.center.y - 0.2 * static_cast<double>(d));
+    EXPECT_LT(after.normal.x, -0.2); // toward what has gone
 }
 
 TEST_F(SolidSplatsTest, NothingJumpsWhenAParticleIsFreed)
