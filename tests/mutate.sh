@@ -1760,9 +1760,19 @@ mutation "solid splats: particle splats lie above the surface" \
     conformance_tests 'SolidSplatsTest.TheSurfaceRecedesSteadilyFromLayerToLayer'
 mutation "solid splats: particle splats wait until surface splats are gone" \
     shaders/render/particle_splat.comp \
-    '(1.0 - covered * (1.0 - eroded))' \
-    '(1.0 - covered)' \
-    image_tests '*SolidFramesTest.NoHoleShowsTheInside/melt_cube'
+    'float backing = covered * (1.0 - eroded);' \
+    'float backing = covered;' \
+    conformance_tests 'SolidSplatsTest.TheDeviceConformsToTheTwin'
+mutation "solid splats: nothing backs the edges of surface splats" \
+    shaders/render/particle_splat.comp \
+    'edge_distance < NO_EDGE ? BACKING_RADIUS : 0.0' \
+    'edge_distance < NO_EDGE ? 0.0 : 0.0' \
+    image_tests '*SolidFramesTest.NoHoleShowsTheInside/vanish'
+mutation "solid splats: surface splats do not see that their hosts' neighbors go" \
+    shaders/render/particle_splat.comp \
+    'abs(part_left - 1.0) > UNCHANGED || here.fluid > 0.0 ? 1 : 0' \
+    '0' \
+    conformance_tests 'SolidSplatsTest.SurfaceSplatsDoNotStandOutOfWhatIsLeft'
 mutation "solid splats: they bend the wrong way across" \
     shaders/render/bend_splat.comp \
     'float uv = (turn_u.y' \

@@ -167,7 +167,9 @@ Disc hosted_disc(const shared::HostedSplat& splat, double spacing, const State& 
     const glm::dvec3 normal = glm::normalize(frame * glm::dvec3(splat.normal));
     const glm::dvec3 center = a + frame * glm::dvec3(splat.offset) - recession * normal;
 
-    const Field field = field_at(center, spacing, state, found.left);
+    const bool is_still = kept.start > 0.0 && worst == 0.0 && kept.wet == 0.0 && !found.changed[splat.host.x] &&
+                          !found.changed[splat.host.y] && !found.changed[splat.host.z];
+    const Field field = is_still ? Field{.filling = kept.start} : field_at(center, spacing, state, found.left);
     kept.start = kept.start > 0.0 ? kept.start : std::max(field.filling, 1e-6);
     kept.wet = wetness_after(seconds, kept.wet, field.fluid);
     const double bare = 1.0 - smooth_ramp(shared::BARE_FULLY, shared::BARE_FROM, field.filling / kept.start);
@@ -200,10 +202,12 @@ SolidSplats solid_splats(const Settings& settings, const shared::SolidSplatParam
                       .size = std::vector<double>(state.size()),
                       .wet = before.wet,
                       .start = before.start,
+                      .changed = before.changed,
                       .kept = before.kept,
                       .particle = std::vector<Disc>(state.size())};
     found.wet.resize(state.size(), 0.0);
     found.start.resize(state.size(), 0.0);
+    found.changed.resize(state.size(), false);
     found.kept.resize(sources.hosted.size());
     for (std::size_t i = 0; i < state.size(); ++i) {
         const std::uint32_t its_state = shared::particle_state(state.attributes[i]);
@@ -215,6 +219,7 @@ SolidSplats solid_splats(const Settings& settings, const shared::SolidSplatParam
     for (std::size_t k = 0; k < sources.hosted.size(); ++k) {
         found.hosted.push_back(hosted_disc(sources.hosted[k], spacing, state, found, sources.seconds, found.kept[k]));
     }
+    std::vector<std::uint8_t> changed(state.size(), 0);
     parallel_for(state.size(), [&](std::size_t i) {
         if (found.left[i] <= 0.0) {
             return;
@@ -226,27 +231,34 @@ SolidSplats solid_splats(const Settings& settings, const shared::SolidSplatParam
         const double living = 1.0 - smooth_ramp(shared::DYING_FROM, 1.0f, 1.0 - found.left[i]);
         found.size[i] = std::max(found.size[i], thin * living);
         found.start[i] = found.start[i] > 0.0 ? found.start[i] : field.filling;
+        const double part_left = field.filling / found.start[i];
+        changed[i] = std::abs(part_left - 1.0) > static_cast<double>(shared::UNCHANGED) || field.fluid > 0.0 ? 1 : 0;
         if (exposed <= 0.0) {
             return;
         }
-        const double eroded =
-            smooth_ramp(shared::ERODED_FROM, shared::ERODED_FULLY, 1.0 - field.filling / found.start[i]);
+        const double eroded = smooth_ramp(shared::ERODED_FROM, shared::ERODED_FULLY, 1.0 - part_left);
         found.wet[i] = wetness_after(sources.seconds, found.wet[i], field.fluid);
 
         const std::uint32_t material = shared::particle_material(state.attributes[i]);
         const std::uint32_t cover = sources.cover[i];
-        const double covered = cover == shared::NO_COVER ? 0.0 : found.kept[cover].cover;
+        const bool has_cover = cover != shared::NO_COVER;
+        const double covered = has_cover ? found.kept[cover].cover : 0.0;
+        const double backing = covered * (1.0 - eroded);
+        const bool at_edge = has_cover && sources.hosted[cover].edge_distance < shared::NO_EDGE;
         const double depth = depth_below_surface(field.filling) - static_cast<double>(shared::PARTICLE_SPLAT_DEPTH) -
-                             static_cast<double>(shared::COVERED_DEPTH) * covered;
+                             static_cast<double>(shared::COVERED_DEPTH) * covered -
+                             static_cast<double>(shared::BACKING_DEPTH) * backing;
         Disc& disc = found.particle[i];
         disc.normal = -field.gradient / steepness;
         disc.center = state.position[i] + depth * spacing * disc.normal;
-        disc.radius = static_cast<double>(shared::PARTICLE_SPLAT_RADIUS) * spacing * exposed * living *
-                      (1.0 - covered * (1.0 - eroded));
+        disc.radius = glm::mix(static_cast<double>(shared::PARTICLE_SPLAT_RADIUS),
+                               static_cast<double>(at_edge ? shared::BACKING_RADIUS : 0.0f), backing) *
+                      spacing * exposed * living;
         disc.wet = found.wet[i];
         disc.color = glm::dvec3(splats.color[material]) *
                      (1.0 + disc.wet * (static_cast<double>(splats.wet_albedo[material]) - 1.0));
     });
+    found.changed.assign(changed.begin(), changed.end());
     parallel_for(state.size(), [&](std::size_t i) {
         if (found.particle[i].radius > 0.0) {
             found.particle[i].bend = bend(found.particle, state, i, spacing);

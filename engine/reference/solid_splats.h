@@ -44,6 +44,7 @@ struct SolidSplats {
     std::vector<double> size;       ///< of balls, in radii of a particle
     std::vector<double> wet;        ///< 0 to 1
     std::vector<double> start;      ///< c of solids in the first frame that has them
+    std::vector<bool> changed;      ///< of solids: c is another, or there is fluid
     std::vector<KeptOfHosted> kept; ///< of hosted ones
     std::vector<Disc> particle;     ///< of each
     std::vector<Disc> hosted;

@@ -38,7 +38,7 @@ SolidSplats::SolidSplats(const gpu::Context& context, const shared::SolidSplatPa
       living_(gpu::make_texel_buffer(context, pool_, "living solids")),
       place_(gpu::make_buffer<std::uint32_t>(context, pool_, "place")),
       size_(gpu::make_buffer<float>(context, pool_, "ball size")),
-      kept_(gpu::make_buffer<glm::vec2>(context, pool_, "kept of solids"))
+      kept_(gpu::make_buffer<shared::KeptOfSolid>(context, pool_, "kept of solids"))
 {
     if (sand_map.x > 0) {
         sand_.emplace(context, sand_map);
@@ -77,8 +77,8 @@ void SolidSplats::record(gpu::Commands& commands, const SolidView& view, const D
     if (hosted_count_ > 0) {
         commands.dispatch(surface_splat_, hosted_count_, push,
                           {read(view.params), read(view.cell_start), read(living_), read(living_), read_write(hosted_),
-                           read(place_), write(discs.position()), write(discs.normal()), write(discs.color()),
-                           write(discs.bend())});
+                           read(place_), read(kept_), write(discs.position()), write(discs.normal()),
+                           write(discs.color()), write(discs.bend())});
     }
     commands.dispatch(particle_splat_, pool_, push,
                       {read(view.params), read(params_), read(view.cell_start), read(living_), read(living_),

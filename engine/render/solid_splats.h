@@ -46,7 +46,7 @@ public:
     [[nodiscard]] const gpu::Buffer& size() const { return size_; }
     /// Null where there is none.
     [[nodiscard]] const SandSurface* sand() const { return sand_ ? &*sand_ : nullptr; }
-    /// What is kept from frame to frame: vec2 by id, how wet it is, 0 to 1, and c when it was first seen as a solid.
+    /// shared::KeptOfSolid, by id.
     [[nodiscard]] const gpu::Buffer& kept() const { return kept_; }
 
 private:
@@ -63,7 +63,7 @@ private:
     gpu::Buffer living_; ///< vec4, in the particles' order
     gpu::Buffer place_;  ///< uint, by id
     gpu::Buffer size_;   ///< float, in the particles' order
-    gpu::Buffer kept_;   ///< vec2, by id
+    gpu::Buffer kept_;   ///< shared::KeptOfSolid, by id
     std::optional<SandSurface> sand_;
 };
 

@@ -19,7 +19,7 @@ namespace {
 
 constexpr double host_reach = 2.5;    // spacings, of a splat's hosts
 constexpr double covered_depth = 2.0; // spacings: a splat covers the particles less deep below it,
-constexpr double covered_width = 0.5; // and as near to the line along its normal
+constexpr double covered_width = 1.0; // and as near to the line along its normal
 constexpr double least_width = 0.5;   // of their triangle: its height in spacings
 constexpr double cover_width = 0.72; // spacings: a splat is covered by a particle so near to the line along its normal,
 constexpr double cover_height = 0.25;   // so far above it
@@ -118,25 +118,40 @@ bool is_covered(const SolidParticles& solids, double spacing, const std::vector<
 struct Edge {
     glm::dvec3 way{0.0};                                       ///< along the surface, of length 1
     double distance = std::numeric_limits<double>::infinity(); ///< m
+    double corner = std::numeric_limits<double>::infinity();   ///< m, to the next edge across that one
 };
 
 /// Of each splat the nearest edge, at most `reach` off: where the face of another splat cuts its own.
 std::vector<Edge> find_edges(const PointCloud& cloud, double reach)
 {
-    constexpr double sharp = 0.8; // cosine of the angle between faces
+    constexpr double sharp = 0.8;  // cosine of the angle between faces at an edge
+    constexpr double square = 0.2; // and at a corner
     const PointCells cells(cloud.positions, reach);
     std::vector<Edge> edges(cloud.size());
     parallel_for(cloud.size(), [&](std::size_t place) {
         const std::uint32_t i = cells.order()[place];
         const glm::dvec3 normal(cloud.normals[i]);
-        cells.visit_near(place, [&](std::uint32_t other) {
-            const std::uint32_t j = cells.order()[other];
-            const glm::dvec3 its_normal(cloud.normals[j]);
-            const glm::dvec3 along = its_normal - glm::dot(its_normal, normal) * normal;
-            const double below = glm::dot(glm::dvec3(cloud.positions[j]) - glm::dvec3(cloud.positions[i]), its_normal);
-            const double distance = below / glm::length(along);
-            if (glm::dot(its_normal, normal) < sharp && below > 0.0 && distance < std::min(edges[i].distance, reach)) {
-                edges[i] = {.way = glm::normalize(along), .distance = distance};
+        const auto visit_edges = [&](double most_alike, const auto& visit) {
+            cells.visit_near(place, [&](std::uint32_t other) {
+                const std::uint32_t j = cells.order()[other];
+                const glm::dvec3 its_normal(cloud.normals[j]);
+                const glm::dvec3 along = its_normal - glm::dot(its_normal, normal) * normal;
+                const double below =
+                    glm::dot(glm::dvec3(cloud.positions[j]) - glm::dvec3(cloud.positions[i]), its_normal);
+                const double distance = below / glm::length(along);
+                if (glm::dot(its_normal, normal) < most_alike && below > 0.0 && distance < reach) {
+                    visit(glm::normalize(along), distance);
+                }
+            });
+        };
+        visit_edges(sharp, [&](const glm::dvec3& way, double distance) {
+            if (distance < edges[i].distance) {
+                edges[i] = {.way = way, .distance = distance};
+            }
+        });
+        visit_edges(square, [&](const glm::dvec3& way, double distance) {
+            if (glm::dot(way, edges[i].way) < square) {
+                edges[i].corner = std::min(edges[i].corner, distance);
             }
         });
     });
@@ -167,7 +182,7 @@ std::optional<shared::HostedSplat> host(const SolidParticles& solids, double spa
         .offset = to_frame * (x - a),
         .normal = to_frame * normal,
         .edge = to_frame * edge.way,
-        .edge_distance = std::isfinite(edge.distance) ? static_cast<float>(edge.distance) : 1e9f,
+        .edge_distance = std::isfinite(edge.distance) ? static_cast<float>(edge.distance) : shared::NO_EDGE,
         .color = {},
         .radius = 0.0f,
         .wet_albedo = 1.0f,
@@ -250,16 +265,17 @@ SolidSurface make_solid_surface(const Scene& scene, const ParticleSet& particles
         std::vector<std::optional<shared::HostedSplat>> hosted(samples.cloud.size());
         const float radius = shared::SURFACE_SPLAT_RADIUS * static_cast<float>(samples.spacing);
         const std::vector<Edge> edges =
-            find_edges(samples.cloud, static_cast<double>(radius) +
-                                          static_cast<double>(shared::RECESSION + shared::SINKING_DEPTH) * spacing);
+            find_edges(samples.cloud, static_cast<double>(radius) + static_cast<double>(shared::RECESSION) * spacing);
         parallel_for(hosted.size(), [&](std::size_t i) {
             hosted[i] = host(solids, spacing, glm::dvec3(samples.cloud.positions[i]),
                              glm::dvec3(samples.cloud.normals[i]), edges[i]);
         });
-        for (std::size_t i = 0; i < hosted.size(); ++i) {
+        // Those near one another together: what a device does at a time either changes or does not.
+        const PointCells cells(samples.cloud.positions, host_reach * spacing);
+        for (const std::uint32_t i : cells.order()) {
             if (hosted[i] && result.splats.size() < limit) {
                 hosted[i]->color = scene.solids[s].solid_color;
-                hosted[i]->radius = radius;
+                hosted[i]->radius = std::min(radius, static_cast<float>(edges[i].corner));
                 hosted[i]->wet_albedo = wet_albedo_of(materials.materials[materials.of_solid[s]]);
                 cover_particles(solids, spacing, glm::dvec3(samples.cloud.positions[i]),
                                 glm::dvec3(samples.cloud.normals[i]), static_cast<std::uint32_t>(result.splats.size()),

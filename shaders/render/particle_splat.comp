@@ -14,7 +14,7 @@ layout(set = 0, binding = 3, scalar) readonly buffer Living { vec4 living[]; };
 layout(set = 0, binding = 4) uniform textureBuffer living_texels;
 layout(set = 0, binding = 5, scalar) readonly buffer Id { uint id[]; };
 layout(set = 0, binding = 6, scalar) readonly buffer Attributes { uint attributes[]; };
-layout(set = 0, binding = 7, scalar) buffer Kept { vec2 kept[]; }; // by id: how wet, 0 .. 1, and c at the start; 0: none then
+layout(set = 0, binding = 7, scalar) buffer Kept { KeptOfSolid kept[]; }; // by id
 layout(set = 0, binding = 8, scalar) buffer Size { float size[]; }; // of balls
 layout(set = 0, binding = 9, scalar) readonly buffer Hosted { HostedSplat hosted[]; };
 layout(set = 0, binding = 10, scalar) readonly buffer Cover { uint cover[]; }; // by id: a hosted splat, or NO_COVER
@@ -45,24 +45,31 @@ void main()
     float dying = smooth_ramp(DYING_FROM, 1.0, 1.0 - left);
     size[i] = max(size[i], thin * (1.0 - dying));
     uint slot = id[i];
-    if (kept[slot].y == 0.0) {
-        kept[slot].y = here.filling;
+    if (kept[slot].filling == 0.0) {
+        kept[slot].filling = here.filling;
     }
+    float part_left = here.filling / kept[slot].filling;
+    kept[slot].changed = abs(part_left - 1.0) > UNCHANGED || here.fluid > 0.0 ? 1 : 0;
     if (exposed <= 0.0) {
         return;
     }
-    float eroded = smooth_ramp(ERODED_FROM, ERODED_FULLY, 1.0 - here.filling / kept[slot].y);
-    float wetness = wetness_after(push.seconds, kept[slot].x, here.fluid);
-    kept[slot].x = wetness;
+    float eroded = smooth_ramp(ERODED_FROM, ERODED_FULLY, 1.0 - part_left);
+    float wetness = wetness_after(push.seconds, kept[slot].wetness, here.fluid);
+    kept[slot].wetness = wetness;
 
     float steepness = length(here.gradient);
     vec3 normal = -here.gradient / steepness;
     float depth = depth_below_surface(here.filling);
-    float covered = cover[slot] == NO_COVER ? 0.0 : hosted[cover[slot]].cover;
-    float sunk = PARTICLE_SPLAT_DEPTH + COVERED_DEPTH * covered;
+    float covered = 0.0;
+    float backing_radius = 0.0;
+    if (cover[slot] != NO_COVER) {
+        covered = hosted[cover[slot]].cover;
+        backing_radius = hosted[cover[slot]].edge_distance < NO_EDGE ? BACKING_RADIUS : 0.0;
+    }
+    float backing = covered * (1.0 - eroded);
+    float sunk = PARTICLE_SPLAT_DEPTH + COVERED_DEPTH * covered + BACKING_DEPTH * backing;
     vec3 center = x + (depth - sunk) * params.spacing * normal;
-    float radius = PARTICLE_SPLAT_RADIUS * params.spacing * exposed * (1.0 - dying) *
-                   (1.0 - covered * (1.0 - eroded));
+    float radius = mix(PARTICLE_SPLAT_RADIUS, backing_radius, backing) * params.spacing * exposed * (1.0 - dying);
     uint material = particle_material(attributes[i]);
     disc_position[disc] = vec4(center, radius);
     disc_normal[disc] = vec4(normal, DISC_BENT);

@@ -13,10 +13,11 @@ layout(set = 0, binding = 2, scalar) readonly buffer Living { vec4 living[]; }; 
 layout(set = 0, binding = 3) uniform textureBuffer living_texels;
 layout(set = 0, binding = 4, scalar) buffer Hosted { HostedSplat hosted[]; };
 layout(set = 0, binding = 5, scalar) readonly buffer Place { uint place[]; }; // by id
-layout(set = 0, binding = 6, scalar) writeonly buffer DiscPosition { vec4 disc_position[]; };
-layout(set = 0, binding = 7, scalar) writeonly buffer DiscNormal { vec4 disc_normal[]; };
-layout(set = 0, binding = 8, scalar) writeonly buffer DiscColor { vec4 disc_color[]; };
-layout(set = 0, binding = 9, scalar) writeonly buffer DiscBend { vec4 disc_bend[]; };
+layout(set = 0, binding = 6, scalar) readonly buffer Kept { KeptOfSolid kept[]; }; // by id, of the frame before
+layout(set = 0, binding = 7, scalar) writeonly buffer DiscPosition { vec4 disc_position[]; };
+layout(set = 0, binding = 8, scalar) writeonly buffer DiscNormal { vec4 disc_normal[]; };
+layout(set = 0, binding = 9, scalar) writeonly buffer DiscColor { vec4 disc_color[]; };
+layout(set = 0, binding = 10, scalar) writeonly buffer DiscBend { vec4 disc_bend[]; };
 
 #include "include/solid_field.glsl"
 
@@ -39,7 +40,12 @@ void main()
     float recession = RECESSION * params.spacing * mean_progress;
     vec3 center = a.xyz + frame * splat.offset - recession * normal;
 
-    SolidField here = solid_field(center);
+    // Most do not change: where nothing has near the hosts, there is nothing to look up.
+    uint has_changed = kept[splat.host.x].changed | kept[splat.host.y].changed | kept[splat.host.z].changed;
+    SolidField here = SolidField(splat.filling, vec3(0.0), 0.0);
+    if (splat.filling == 0.0 || worst_progress > 0.0 || splat.wetness > 0.0 || has_changed != 0u) {
+        here = solid_field(center);
+    }
     float start = splat.filling == 0.0 ? max(here.filling, 1e-6) : splat.filling;
     float sinking = max(smooth_ramp(SINKING_FROM, SINKING_UNTIL, worst_progress),
                         1.0 - smooth_ramp(BARE_FULLY, BARE_FROM, here.filling / start));

@@ -15,7 +15,7 @@
 // three solid particles below it: it moves and turns with them, recedes by their mean progress, and is gone with the first of them, or
 // when they part, as those of sand that slides.
 // At a sharp edge its disc is cut off, where the next face is, which recedes as well. Below it, particle splats keep out of its
-// way, for the steps of a lattice are not the shape that it fills; there are none before something has gone nearby. When the first
+// way, for the steps of a lattice are not the shape that it fills; before something has gone nearby they only stop gaps at edges. When the first
 // of its hosts is about to go, or what is left has drawn back from where it lies, it sinks to the surface where c = 1/2 and turns
 // as that does, and the particle splats come up over it: nobody sees it shrink. Whose host was ever freed is gone for good.
 //
@@ -42,11 +42,15 @@ SHARED_CONSTANT float THIN_FROM = 0.75f;
 SHARED_CONSTANT float PARTICLE_SPLAT_RADIUS = 1.0f;  // spacings: discs of a cubic lattice overlap from 0.71 on
 SHARED_CONSTANT float PARTICLE_SPLAT_DEPTH = 0.25f;   // spacings below the surface, so that surface splats cover them
 SHARED_CONSTANT float COVERED_DEPTH = 0.35f;         // spacings farther below, where a surface splat covers them whole
+SHARED_CONSTANT float BACKING_DEPTH = 0.4f;          // and so much more where nothing has gone nearby yet: there they
+SHARED_CONSTANT float BACKING_RADIUS = 0.75f;        // only stop gaps between surface splats at edges
+SHARED_CONSTANT float NO_EDGE = 1e9f;
+SHARED_CONSTANT float UNCHANGED = 1e-3f;             // part of c that rounding may lose
 SHARED_CONSTANT float ERODED_FROM = 0.02f;           // lost part of c from which up to which they come
 SHARED_CONSTANT float ERODED_FULLY = 0.1f;
 SHARED_CONSTANT uint NO_COVER = 0xffffffffu;         // of a particle without one
 SHARED_CONSTANT float SURFACE_SPLAT_SPACING = 0.5f;  // of surface splats, in spacings
-SHARED_CONSTANT float SURFACE_SPLAT_RADIUS = 1.1f;   // in spacings of their own
+SHARED_CONSTANT float SURFACE_SPLAT_RADIUS = 1.25f;   // in spacings of their own
 SHARED_CONSTANT float RECESSION = 1.0f;              // spacings, of a surface splat whose hosts are about to go
 SHARED_CONSTANT float MOST_STRETCH = 1.5f;            // spans, of a surface splat whose hosts have parted: then it is gone
 SHARED_CONSTANT float DYING_FROM = 0.5f;             // progress beyond which particle splats shrink
@@ -94,6 +98,13 @@ struct SolidSplatPush {
     uint first_hosted; // and their first disc
 };
 
+// What is kept of a solid particle from frame to frame, by id.
+struct KeptOfSolid {
+    float wetness; // 0 .. 1
+    float filling; // c in the first frame; 0 before
+    uint changed;  // 1: c was another in the frame before, or there was fluid
+};
+
 // A surface splat. Its place and normal are those of the start, in the frame of its hosts: the axes are the ways from the first
 // host to the two others and, perpendicular to them, their cross product over d.
 struct HostedSplat {
@@ -102,7 +113,7 @@ struct HostedSplat {
     vec3 offset; // from the first host
     vec3 normal; // of any length
     vec3 edge;   // at a sharp edge of the solid: the way along the disc to it, of length 1 in space; else 0
-    float edge_distance; // m, to that edge
+    float edge_distance; // m, to that edge; NO_EDGE without one
     vec3 color;  // linear RGB
     float radius; // m
     float wet_albedo;

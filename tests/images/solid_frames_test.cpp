@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstdint>
 #include <limits>
+#include <numbers>
 #include <string>
 #include <vector>
 
@@ -79,16 +80,21 @@ public:
         return whole;
     }
 
-    /// Those of them that have six such neighbors: they lie below the exposed layer.
+    /// Those of them that the others surround: a spacing below a flat surface and deeper, below the exposed layer.
     [[nodiscard]] std::vector<glm::vec3> inner_solids()
     {
         const std::vector<glm::vec3> whole = whole_solids();
-        const float reach = 1.2f * scene_.particles.spacing;
+        const double reach = static_cast<double>(shared::SURFACE_SUPPORT * scene_.particles.spacing);
+        const double scale =
+            21.0 / (2.0 * std::numbers::pi * std::pow(static_cast<double>(shared::SURFACE_SUPPORT), 3));
         std::vector<glm::vec3> inner;
         for (const glm::vec3& x : whole) {
-            const auto near =
-                std::ranges::count_if(whole, [&](const glm::vec3& other) { return glm::distance(x, other) < reach; });
-            if (near >= 7) {
+            double filling = 0.0; // of the space around it, by Wendland's kernel
+            for (const glm::vec3& other : whole) {
+                const double q = static_cast<double>(glm::distance(x, other)) / reach;
+                filling += q < 1.0 ? scale * std::pow(1.0 - q, 4) * (1.0 + 4.0 * q) : 0.0;
+            }
+            if (filling > 0.93) {
                 inner.push_back(x);
             }
         }
@@ -213,24 +219,22 @@ TEST_P(SolidFramesTest, NothingPops)
 }
 
 // Bounds are a quarter to a half above what a software device measures:
-//   holes    0, 8300, 2981, 6397, 3690, 8003 in a million: the teapot's are at its thin lid and where its spout
-//   reaches into
-//            its body, the others' where bodies touch. With particle splats that wait until surface splats are gone
-//            there are 23817 on the cube.
-//            The river's are 4294 where it carries off half as much.
-//            The dune's are 7248, along its outline, where single columns stand above the mean that is seen.
-//   changes  0.162/23, 0.245/31, 0.157/42, 0.578/90, 0.060/24, 0.048/16, 0.135/22: solids change at looks, a
-//            twentieth of a particle's life apart. On the cube it is 0.157/49 where solids are whole until they are
-//            freed, and 0.392/70 where surface splats go at once; on the teapot 0.263/78 and 0.256/33. The dune without
-//            its sheet has 0.651/61.
+//   holes    0, 5943, 9903, 3884, 0, 0 in a million: the teapot's are at its thin lid and where its spout reaches into
+//            its body, the block's and the river's where bodies touch whose heights are no multiples of these coarse
+//            spacings, so that space is left between them. Without discs that back the edges they are 0, 5282, 13086,
+//            6746, 1948, 4979. The dune's are 2704, along its outline, where single columns stand above the mean that
+//            is seen.
+//   changes  0.156/26, 0.189/28, 0.132/42, 0.313/53, 0.046/20, 0.043/15, 0.135/22: solids change at looks, a
+//            twentieth of a particle's life apart. Where surface splats shrink in their places instead of sinking they
+//            are 0.184/35, 0.258/33, 0.144/40, 0.541/87, 0.058/25, 0.041/16. The dune without its sheet has 0.651/61.
 INSTANTIATE_TEST_SUITE_P(Scenes, SolidFramesTest,
-                         testing::Values(Case{"melt_cube", 0.025f, 0.5, 0.005, 200, 0.22, 32},
-                                         Case{"melt_teapot", 0.025f, 0.3, 0.005, 11'500, 0.33, 45},
-                                         Case{"jet_on_block", 0.04f, 0.6, 0.005, 4000, 0.19, 55},
-                                         Case{"river_bed", 0.05f, 0.8, 0.005, 8000, 0.7, 110},
-                                         Case{"vanish", 0.04f, 0.6, 0.005, 4000, 0.08, 33},
-                                         Case{"dissolve", 0.05f, 0.6, 0.005, 8500, 0.06, 22},
-                                         Case{"dune", 0.045f, 0.3, 0.005, 9500, 0.17, 28, 2.0f}),
+                         testing::Values(Case{"melt_cube", 0.025f, 0.5, 0.005, 200, 0.21, 36},
+                                         Case{"melt_teapot", 0.025f, 0.3, 0.005, 8000, 0.25, 38},
+                                         Case{"jet_on_block", 0.04f, 0.6, 0.005, 13'000, 0.18, 55},
+                                         Case{"river_bed", 0.05f, 0.8, 0.005, 5300, 0.43, 72},
+                                         Case{"vanish", 0.04f, 0.6, 0.005, 200, 0.065, 28},
+                                         Case{"dissolve", 0.05f, 0.6, 0.005, 200, 0.06, 21},
+                                         Case{"dune", 0.045f, 0.3, 0.005, 3700, 0.17, 28, 2.0f}),
                          [](const auto& its) { return std::string(its.param.scene); });
 
 /// Of the normals that a picture of COLOR_NORMAL shows of ground, from pixel to pixel along rows.
