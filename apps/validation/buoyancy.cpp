@@ -27,7 +27,7 @@ Buoyancy measure_buoyancy(const gpu::Context& context, Solver solver, double sup
     scene.physics.viscosity = 5.0f; // Pa s
     const float depth = 2.0f * half * d;
     const glm::vec3 top(scene.domain.max.x, depth, scene.domain.max.z);
-    scene.fluids.push_back({.shape = BlockShape{scene.domain.min, top}, .lattice = FluidLattice::BlueNoise});
+    scene.fluids.push_back({.shape = BlockShape{scene.domain.min, top}, .lattice = BodyLattice::BlueNoise});
     const glm::vec3 center(0.0f, half * d, 0.0f);
     scene.colliders.push_back({.shape = SphereShape{center, radius * d}});
     const float speed_of_sound = 10.0f * std::sqrt(9.81f * depth);

@@ -54,7 +54,7 @@ Scene tension_scene(std::string name, double spacing, double tension_factor)
     scene.particles.spacing = static_cast<float>(spacing);
     scene.physics.gravity = glm::vec3(0.0f);
     scene.physics.speed_of_sound = static_cast<float>(std::sqrt(2.0 * tension() / (rest_density() * radius) / 0.005));
-    FluidBody body{.lattice = FluidLattice::BlueNoise};
+    FluidBody body{.lattice = BodyLattice::BlueNoise};
     set_liquid(body, water());
     body.surface_tension = static_cast<float>(tension_factor * tension());
     scene.fluids.push_back(body);
@@ -73,7 +73,7 @@ Scene drop_scene(const DropSettings& settings)
     scene.particles.support_ratio = settings.support_ratio;
     scene.fluids[0].shape = SphereShape{glm::vec3(0.0f), static_cast<float>(radius)};
     if (settings.dimensions == 2) { // where there is no blue noise
-        scene.fluids[0].lattice = FluidLattice::Cubic;
+        scene.fluids[0].lattice = BodyLattice::Cubic;
     }
     return scene;
 }

@@ -43,7 +43,7 @@ Scene drops_scene(const FreeMotion& motion)
     const glm::vec3 velocity(-1.0f, 0.0f, 0.3f);
     for (const float sign : {1.0f, -1.0f}) {
         scene.fluids.push_back({.shape = SphereShape{sign * place, radius},
-                                .lattice = FluidLattice::BlueNoise,
+                                .lattice = BodyLattice::BlueNoise,
                                 .velocity = sign * velocity + glm::vec3(0.0f, 0.2f, 0.0f)});
     }
     return scene;

@@ -111,6 +111,7 @@ void set_melt(Scene& scene, const MeshShape& mesh, const Model& model, double si
     scene.domain.wall_viscosity = *ice.viscosity;
     ice.shape = mesh;
     std::get<MeshShape>(ice.shape).position.y = 0.5f * model.extent.y + 0.25f * scene.particles.spacing;
+    ice.lattice = BodyLattice::BlueNoise; // no rows melt at once
     ice.melts = true;
     ice.solid_color = {0.72f, 0.83f, 0.90f};
     scene.solids.push_back(ice);
@@ -135,6 +136,7 @@ void set_vanish(Scene& scene, const MeshShape& mesh, const Model& model, double 
     SolidBody solid;
     solid.shape = mesh;
     std::get<MeshShape>(solid.shape).position.y = 0.5f * model.extent.y + 0.25f * scene.particles.spacing;
+    solid.lattice = BodyLattice::BlueNoise;
     solid.becomes = SolidBecomes::Dust;
     solid.anchor = SolidAnchor::All; // what hangs in the air crumbles there
     solid.solid_color = {0.55f, 0.42f, 0.34f};

@@ -111,7 +111,7 @@ VolumeSamples sample_shape(const Scene& scene, const FilledBody& filled, const S
     if (scene.domain.dimensions == 2) {
         return sample_plane_shape(body.shape, spacing);
     }
-    if (body.lattice == FluidLattice::BlueNoise) {
+    if (body.lattice == BodyLattice::BlueNoise) {
         return sample_blue_noise(scene, filled.seed, solid, spacing);
     }
     const bool swells = filled.solid != nullptr && volume_as_solid(*filled.solid) != 1.0;
@@ -204,7 +204,7 @@ void check_inside(const Scene& scene, const VolumeSamples& samples, const std::s
 float least_distance(const FluidBody& body, const VolumeSamples& samples, double spacing, std::uint32_t dimensions)
 {
     double least = samples.spacing;
-    if (body.lattice == FluidLattice::BlueNoise) {
+    if (body.lattice == BodyLattice::BlueNoise) {
         least *= relaxed_radius * densest_packing;
     } else if (const auto* block = std::get_if<BlockShape>(&body.shape)) { // its spacing may differ from axis to axis
         const glm::dvec3 size = glm::dvec3(block->max) - glm::dvec3(block->min);

@@ -377,6 +377,12 @@ std::vector<Key<Body>> with_shape_keys(std::string_view description, const std::
     return keys;
 }
 
+template <class Body>
+Key<Body> lattice_key(std::string_view description)
+{
+    return choice<Body>("lattice", FIELD(lattice), {{"cubic", BodyLattice::Cubic}, {"blue-noise", BodyLattice::BlueNoise}}, description);
+}
+
 /// Setting it gives the body's fluid, a FluidBody, the liquid's values.
 template <class Body, class FluidOf>
 Key<Body> liquid_key(FluidOf fluid_of, std::string_view description)
@@ -428,7 +434,7 @@ std::vector<FluidKey> make_fluid_keys()
     const auto k = [](auto... arguments) { return key<FluidBody>(arguments...); };
     return joined(with_shape_keys<FluidBody>("where the fluid starts; each shape has keys of its own", {
         liquid_key<FluidBody>(ITSELF, "what it is: gives rest_density, viscosity, surface_tension and color the values below, unless they stand in the scene; custom: nothing"),
-        choice<FluidBody>("lattice", FIELD(lattice), {{"cubic", FluidLattice::Cubic}, {"blue-noise", FluidLattice::BlueNoise}}, "how its particles lie at the start: in rows, or evenly without any, relaxed until the density varies by 1 %"),
+        lattice_key<FluidBody>("how its particles lie at the start: in rows, or evenly without any, relaxed until the density varies by 1 %"),
         k("rest_density", FIELD(rest_density), "kg/m^3", Range{1e-3, 1e5}, "density without pressure"),
         k("viscosity", FIELD(viscosity), "Pa s", Range{0, 1e4}, "dynamic; auto: physics.viscosity. Between two fluids the harmonic mean is at work"),
         k("surface_tension", FIELD(surface_tension), "N/m", Range{0, 1e4}, "against air, of tension_model \"si\"; auto: the liquid's, where particles are finer than its capillary length sqrt(tension / (density gravity)), else 0; without a liquid physics.surface_tension"),
@@ -445,6 +451,7 @@ std::vector<SolidKey> make_solid_keys()
     const auto k = [](auto... arguments) { return key<SolidBody>(arguments...); };
     return joined(with_shape_keys<SolidBody>("what it is; each shape has keys of its own", {
         liquid_key<SolidBody>(ITSELF, "what it turns into: gives rest_density, viscosity, surface_tension and fluid_color the values of a liquid, unless they stand in the scene; custom: nothing"),
+        lattice_key<SolidBody>("how its particles lie: in rows, which leave a melting face a row at a time, or evenly without any, relaxed until the density varies by 1 %"),
         k("rest_density", FIELD(rest_density), "kg/m^3", Range{1e-3, 1e5}, "density of the fluid"),
         k("solid_density", FIELD(solid_density), "kg/m^3", Range{1e-3, 1e5}, "density while it is solid, 0.75 to 1.25 times that of the fluid: what is freed takes on its fluid's volume within some hundred steps, what freezes or settles keeps it; ice has 917; auto: rest_density"),
         k("viscosity", FIELD(viscosity), "Pa s", Range{0, 1e4}, "dynamic, of the fluid; auto: physics.viscosity"),

@@ -103,7 +103,7 @@ struct MeshShape {
 
 using BodyShape = std::variant<BlockShape, SphereShape, MeshShape>;
 
-enum class FluidLattice { Cubic, BlueNoise };
+enum class BodyLattice { Cubic, BlueNoise };
 
 /// What a substance has to do with heat, fluid and solid.
 struct ThermalProperties {
@@ -120,12 +120,12 @@ struct ThermalProperties {
 /// A shape filled with fluid.
 struct FluidBody {
     BodyShape shape;
-    std::string liquid = "custom";              ///< what its values were taken from (scene/liquids.h), or "custom"
-    FluidLattice lattice = FluidLattice::Cubic; ///< how its particles lie at the start
-    float rest_density = 1000.0f;               ///< kg/m^3
-    std::optional<float> viscosity;             ///< dynamic, Pa s; auto: the scene's
-    std::optional<float> surface_tension;       ///< N/m; auto: the liquid's, or the scene's (scene/materials.h)
-    glm::vec3 velocity{0.0f};                   ///< m/s
+    std::string liquid = "custom";            ///< what its values were taken from (scene/liquids.h), or "custom"
+    BodyLattice lattice = BodyLattice::Cubic; ///< how its particles lie at the start
+    float rest_density = 1000.0f;             ///< kg/m^3
+    std::optional<float> viscosity;           ///< dynamic, Pa s; auto: the scene's
+    std::optional<float> surface_tension;     ///< N/m; auto: the liquid's, or the scene's (scene/materials.h)
+    glm::vec3 velocity{0.0f};                 ///< m/s
     glm::mat3 velocity_gradient{
         0.0f};            ///< 1/s: adds gradient * position (a column-major glm matrix: gradient[column][row])
     glm::vec3 spin{0.0f}; ///< rad/s: adds spin x (position - spin_center)

@@ -35,6 +35,7 @@ public:
         check_keys();
         check_domain();
         check_periodic();
+        check_lattices();
         check_time();
         check_camera();
         check_render();
@@ -126,19 +127,40 @@ private:
         }
     }
 
+    /// Who lies in rows, and must.
+    void check_lattices() const
+    {
+        for (std::size_t i = 0; i < scene_.fluids.size(); ++i) {
+            check_lattice(fmt::format("fluid.{}.lattice", i), scene_.fluids[i]);
+        }
+        for (std::size_t i = 0; i < scene_.solids.size(); ++i) {
+            const std::string key = fmt::format("solid.{}.lattice", i);
+            check_lattice(key, scene_.solids[i]);
+            if (scene_.solids[i].wind_erodes && scene_.solids[i].lattice != BodyLattice::Cubic) {
+                fail(key, "is \"blue-noise\", but sand (wind_erodes) stands in columns: it must be \"cubic\"");
+            }
+        }
+    }
+
+    void check_lattice(const std::string& key, const FluidBody& body) const
+    {
+        if (body.lattice == BodyLattice::Cubic) {
+            return;
+        }
+        if (glm::any(scene_.domain.periodic)) {
+            fail(key, "is \"blue-noise\", which knows no domain.periodic: it must be \"cubic\" there");
+        }
+        if (is_flat()) {
+            fail(key, "is \"blue-noise\", but must be \"cubic\" (then a square one) where domain.dimensions is 2");
+        }
+    }
+
     void check_periodic() const
     {
         const DomainSettings& domain = scene_.domain;
         const std::optional<NarrowAxis> narrow = find_narrow_axis(scene_);
         if (narrow && (narrow->periodic || !fluid_bodies(scene_).empty())) {
             fail(narrow->periodic ? "domain.periodic" : "domain.max", "makes a domain that {}", narrow->complaint);
-        }
-        for (std::size_t i = 0; i < scene_.fluids.size(); ++i) {
-            if (glm::any(domain.periodic) && scene_.fluids[i].lattice != FluidLattice::Cubic) {
-                fail(fmt::format("fluid.{}.lattice", i),
-                     "is \"blue-noise\", which knows no domain.periodic: it must be "
-                     "\"cubic\" there");
-            }
         }
         if (is_flat() && domain.periodic.z) {
             fail("domain.periodic", "has z, which means nothing where domain.dimensions is 2");
@@ -450,9 +472,6 @@ private:
             const FluidBody& fluid = scene_.fluids[i];
             const std::string prefix = fmt::format("fluid.{}.", i);
             check_plane_shape(prefix, fluid.shape);
-            if (fluid.lattice != FluidLattice::Cubic) {
-                fail(prefix + "lattice", "is \"blue-noise\", but must be \"cubic\" (then a square one) {}", flat);
-            }
             if (fluid.velocity.z != 0.0f) {
                 fail(prefix + "velocity", "is {}, but must have no z {}", text(fluid.velocity), flat);
             }

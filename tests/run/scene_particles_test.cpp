@@ -3,6 +3,7 @@
 #include <cmath>
 #include <numbers>
 #include <numeric>
+#include <set>
 
 #include <gtest/gtest.h>
 
@@ -103,7 +104,7 @@ TEST(SceneParticles, BlueNoiseStartsEven)
           BodyShape{MeshShape{.mesh = "builtin:torus", .size = 1.8f, .position = {0, 1, 0}}}}) {
         FluidBody body;
         body.shape = shape;
-        body.lattice = FluidLattice::BlueNoise;
+        body.lattice = BodyLattice::BlueNoise;
         body.rest_density = 700.0f;
         const ParticleSet particles = make_particles(scene_of(body), no_limit);
         const std::unique_ptr<Solid> solid = placed_solid(shape);
@@ -125,7 +126,7 @@ TEST(SceneParticles, BlueNoiseBetweenWallsStartsAtRest)
             Scene scene = scene_of(block(glm::vec3(0.0f), glm::vec3(1.2f)));
             scene.domain.min = glm::vec3(0.0f);
             scene.domain.max = glm::vec3(1.2f);
-            scene.fluids[0].lattice = FluidLattice::BlueNoise;
+            scene.fluids[0].lattice = BodyLattice::BlueNoise;
             scene.kernel = kernel;
             scene.particles.support_ratio = support_ratio;
             const ParticleSet particles = make_particles(scene, no_limit);
@@ -150,7 +151,7 @@ TEST(SceneParticles, BlueNoiseBetweenWallsStartsAtRest)
 TEST(SceneParticles, BlueNoiseFollowsTheSeed)
 {
     Scene scene = block_scene();
-    scene.fluids[0].lattice = FluidLattice::BlueNoise;
+    scene.fluids[0].lattice = BodyLattice::BlueNoise;
     const std::vector<glm::vec3> first = make_particles(scene, no_limit).position;
     EXPECT_EQ(make_particles(scene, no_limit).position, first);
     scene.seed = 2;
@@ -205,7 +206,7 @@ TEST(SceneParticles, AScanIsFilledToItsVolume)
     }
     FluidBody body = scan(folder / "ball.xyz", cloud);
     const double volume = 4.0 / 3.0 * std::numbers::pi * 0.8 * 0.8 * 0.8;
-    for (const FluidLattice lattice : {FluidLattice::Cubic, FluidLattice::BlueNoise}) {
+    for (const BodyLattice lattice : {BodyLattice::Cubic, BodyLattice::BlueNoise}) {
         body.lattice = lattice;
         Scene scene = scene_of(body);
         scene.particles.spacing = 0.08f;
@@ -213,7 +214,7 @@ TEST(SceneParticles, AScanIsFilledToItsVolume)
         const double expected = volume / std::pow(0.08, 3);
         // The lattice's spacing may be 2.5 % finer or coarser than asked, the mass may not.
         EXPECT_NEAR(static_cast<double>(particles.size()), expected,
-                    (lattice == FluidLattice::Cubic ? 0.095 : 0.02) * expected);
+                    (lattice == BodyLattice::Cubic ? 0.095 : 0.02) * expected);
         EXPECT_NEAR(total_mass(particles), 1000.0 * volume, 0.01 * 1000.0 * volume);
         for (const glm::vec3& x : particles.position) {
             ASSERT_LT(glm::distance(x, glm::vec3(0.1f, 0.9f, -0.1f)), 0.8f + 0.01f);
@@ -221,12 +222,31 @@ TEST(SceneParticles, AScanIsFilledToItsVolume)
     }
 }
 
+TEST(SceneParticles, ASolidMayLieWithoutRows)
+{
+    Scene scene;
+    scene.particles.spacing = 0.05f;
+    SolidBody solid;
+    solid.shape = BlockShape{.min = glm::vec3(-0.3f, 0.1f, -0.3f), .max = glm::vec3(0.3f, 0.7f, 0.3f)};
+    solid.lattice = BodyLattice::BlueNoise;
+    solid.solid_density = 0.9f * solid.rest_density;
+    scene.solids.push_back(solid);
+    const ParticleSet particles = make_particles(scene, no_limit);
+    EXPECT_NEAR(total_mass(particles), 900.0 * 0.216, 0.01 * 900.0 * 0.216);
+    std::set<float> heights;
+    for (std::size_t i = 0; i < particles.size(); ++i) {
+        ASSERT_EQ(shared::particle_state(particles.attributes[i]), shared::STATE_SOLID);
+        heights.insert(particles.position[i].y);
+    }
+    EXPECT_GT(heights.size(), particles.size() / 2); // of a lattice: a dozen
+}
+
 TEST(SceneParticles, AScanIsScaledTurnedAndPlacedAsTheMeshIs)
 {
     const test::ScratchFolder folder;
     const auto filled = [](const std::string& mesh) {
         FluidBody body;
-        body.lattice = FluidLattice::BlueNoise; // whose count is the volume's
+        body.lattice = BodyLattice::BlueNoise; // whose count is the volume's
         body.shape = MeshShape{.mesh = mesh, .size = 0.8f, .position = {0.1f, 0.7f, -0.2f}, .rotation = {20, 45, 10}};
         return make_particles(scene_of(body), no_limit);
     };

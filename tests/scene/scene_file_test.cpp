@@ -238,6 +238,7 @@ TEST(SceneFile, TwoDimensionsMeanNothingByZ)
         return error_in_plane("[[fluid]]\nshape = \"sphere\"\ncenter = [0, 1, 0]\nradius = 0.2\n" + text);
     };
     error_of_fluid("lattice = \"blue-noise\"");
+    error_in_plane("[[solid]]\nshape = \"sphere\"\ncenter = [0, 1, 0]\nradius = 0.2\nlattice = \"blue-noise\"");
     error_of_fluid("velocity = [0, 0, 1]");
     error_of_fluid("velocity_gradient = [[0, 0, 0], [0, 0, 0], [1, 0, 0]]");
     error_of_fluid("spin = [0, 1, 0]");
@@ -269,10 +270,13 @@ TEST(SceneFile, PeriodicAxesAndLids)
               std::string::npos);
     EXPECT_NE(error_with_block("solver = \"pbf\"\n[physics]\nshifting = 1").find("moves particles itself"),
               std::string::npos);
-    EXPECT_NE(error_of("[domain]\nperiodic = [true, false, false]\n[[fluid]]\nshape = \"block\"\nmin = [0, 0, 0]\n"
-                       "max = [1, 1, 1]\nlattice = \"blue-noise\"")
-                  .find("knows no domain.periodic"),
-              std::string::npos);
+    for (const char* body : {"fluid", "solid"}) {
+        EXPECT_NE(error_of(fmt::format("[domain]\nperiodic = [true, false, false]\n[[{}]]\nshape = \"block\"\n"
+                                       "min = [0, 0, 0]\nmax = [1, 1, 1]\nlattice = \"blue-noise\"",
+                                       body))
+                      .find("knows no domain.periodic"),
+                  std::string::npos);
+    }
 }
 
 TEST(SceneFile, NamesMistakesOfShapes)
@@ -614,6 +618,7 @@ Scene random_scene(std::uint64_t seed)
             solid.melts = false;
             solid.erosion.erodes = false;
             solid.dissolve.speed = 0.0f;
+            solid.lattice = BodyLattice::Cubic;                                                 // it stands in columns
             scene.physics.gravity = {0.0f, -0.7f - static_cast<float>(random.uniform()), 0.0f}; // it comes down
         }
         solid.becomes = solid.melts || solid.erosion.erodes ? SolidBecomes::Fluid : solid.becomes;
@@ -924,6 +929,10 @@ TEST(SceneFile, ContradictionsOfASolidAreNamed)
     };
     EXPECT_EQ(error("dissolve_direction = [0, 0, 0]"),
               "test.toml:5: key \"solid.0.dissolve_direction\" is [0, 0, 0], but must have a length");
+    EXPECT_EQ(
+        error("lattice = \"blue-noise\"\nwind_erodes = true"),
+        "test.toml:5: key \"solid.0.lattice\" is \"blue-noise\", but sand (wind_erodes) stands in columns: it must "
+        "be \"cubic\"");
     EXPECT_EQ(error("rest_density = 1000\nsolid_density = 700"),
               "test.toml:6: key \"solid.0.solid_density\" is 700 kg/m^3, but must be 0.75 to 1.25 times "
               "solid.0.rest_density = 1000 kg/m^3");
