@@ -60,7 +60,7 @@ PointCloud colored_surfaces(const Scene& scene, const SceneMaterials& materials,
         if (points.colors.empty()) {
             const auto* mesh = std::get_if<MeshShape>(&scene.solids[s].shape);
             throw input_error("{}: solid.{}.strength_from is \"color\", but {} has none that are read: those of the "
-                              "vertices of a mesh (.ply), or of points (.ply, .xyz)",
+                              "vertices of a mesh (.obj, .ply, .gltf, .glb), or of points (.ply, .xyz)",
                               scene.name, s, mesh != nullptr ? mesh->mesh : "its shape");
         }
         all.positions.insert(all.positions.end(), points.positions.begin(), points.positions.end());
