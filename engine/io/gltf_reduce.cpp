@@ -360,6 +360,10 @@ private:
         if (known != colors_.end()) {
             return known->second;
         }
+        color_count_ += count;
+        if (color_count_ > size_ / 3) { // of three bytes or more each
+            throw error("the accessors of colors in the glTF file overlap");
+        }
         Elements written{.type = "VEC4", .component_type = type_uint8, .begin = data_.size(), .count = count};
         written.stride = written.size();
         if (written.extent() > largest_buffers - data_.size()) {
@@ -589,6 +593,7 @@ private:
     std::vector<std::pair<std::size_t, std::size_t>> buffers_; ///< where each begins, and its size
     std::map<std::size_t, Accessor> accessors_;                ///< indices in the file -> in what is written
     std::map<std::size_t, std::size_t> colors_;                ///< likewise
+    std::uint64_t color_count_ = 0;                            ///< of all that are written
     std::vector<MeshSize> mesh_sizes_;                         ///< of all meshes of the file
     std::vector<std::optional<std::size_t>> mesh_index_;       ///< in what is written
 };

@@ -681,6 +681,30 @@ TEST(GltfFile, BrokenColorsAreRefused)
         << "an alpha says nothing";
 }
 
+TEST(GltfFile, ColorsDoNotOutgrowTheFile)
+{
+    // Meshes of no node, each with an accessor of its own to the same colors.
+    const TriangleMesh mesh = colored("torus");
+    const auto with_meshes = [&mesh](std::size_t count) {
+        std::string text = test::glb_of(mesh);
+        std::string json = text.substr(20, text.find("BIN") - 24);
+        const std::string accessor =
+            json.substr(json.rfind("{\"bufferView\""), json.rfind("]") - json.rfind("{\"bufferView\""));
+        std::string accessors;
+        std::string meshes;
+        for (std::size_t i = 0; i < count; ++i) {
+            accessors += ", " + accessor;
+            meshes += fmt::format(
+                R"(, {{"primitives": [{{"attributes": {{"POSITION": 1, "COLOR_0": {}}}, "indices": 0}}]}})", i + 4);
+        }
+        json.insert(json.rfind("]"), accessors);
+        json.insert(json.find("],\n\"buffers\""), meshes);
+        return refusal(test::glb(json, test::gltf_buffer_of(mesh)), "m.glb");
+    };
+    EXPECT_EQ(with_meshes(3), "");
+    EXPECT_EQ(with_meshes(10'000), "m.glb: the accessors of colors in the glTF file overlap");
+}
+
 TEST(GltfFile, PartsWithoutColorsAreWhiteBesideOthers)
 {
     // The torus twice, side by side: the second has no colors. Then both share one accessor of them.
