@@ -14,7 +14,8 @@ namespace meltpoint {
 /// extensions are left out, so that the importer behind never meets them; every number that it relies on is checked.
 /// Input errors that name the path: what is no glTF 2.0 or broken; buffers outside the file's folder; nodes that are
 /// deeper than 1000 levels or no tree; instances of meshes beyond ten million triangles; extensions that the triangles
-/// depend on (compression); colors that are not finite.
+/// depend on (compression); colors that are not finite, or that share bytes so that there are more than fit in the
+/// file.
 [[nodiscard]] std::vector<std::uint8_t> reduce_gltf(std::span<const std::uint8_t> bytes,
                                                     const std::filesystem::path& path);
 
