@@ -1283,6 +1283,26 @@ mutation "glTF: instances are not counted" \
     'total.triangles += size.triangles' \
     'total.triangles = size.triangles' \
     unit_tests 'GltfFile.DeepTreesCyclesAndManyInstancesAreRefused'
+mutation "glTF: linear colors are taken as sRGB" \
+    engine/io/gltf_reduce.cpp \
+    'color_byte(255.0 * srgb_from_linear(light))' \
+    'color_byte(255.0 * light)' \
+    unit_tests 'GltfFile.ColorsOfEveryTypeAreLinear:*MeshFormat.BringsBackTheSameColors/Gl*'
+mutation "glTF: colors that are not finite are read" \
+    engine/io/gltf_reduce.cpp \
+    '!std::isfinite(light)' \
+    'false' \
+    unit_tests 'GltfFile.BrokenColorsAreRefused'
+mutation "OBJ: colors are from 0 to 1 in every file" \
+    engine/io/obj_reduce.cpp \
+    'is_bytes ? 255.0 :' \
+    'is_bytes ? 1.0 :' \
+    unit_tests 'ObjFile.ColorsAreFromZeroToOneOrTo255'
+mutation "meshes: parts without colors are black" \
+    engine/io/mesh_import.cpp \
+    'glm::u8vec3(255)' \
+    'glm::u8vec3(0)' \
+    unit_tests 'GltfFile.PartsWithoutColorsAreWhiteBesideOthers'
 mutation "Gmsh: nodes count from zero" \
     engine/io/point_cloud_export.cpp \
     'static_cast<int>(i + 1)' \
@@ -1669,8 +1689,8 @@ mutation "hydraulic: the strength of colors is that of noise" \
     unit_tests 'ColorStrength.OfAScenesSolidsIsThatOfTheirFiles'
 mutation "color strength: sRGB is taken as linear" \
     engine/run/color_strength.cpp \
-    'return c <= 0.04045 ? c / 12.92 : std::pow((c + 0.055) / 1.055, 2.4);' \
-    'return c;' \
+    'linear_from_srgb(encoded / 255.0)' \
+    'encoded / 255.0' \
     unit_tests 'ColorStrength.IsOfLinearLuminance'
 mutation "color strength: dark is strong" \
     engine/run/color_strength.cpp \

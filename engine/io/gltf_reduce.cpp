@@ -6,6 +6,7 @@
 #include <bit>
 #include <cmath>
 #include <cstring>
+#include <initializer_list>
 #include <map>
 #include <optional>
 #include <string>
@@ -14,6 +15,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "core/color.h"
 #include "core/error.h"
 #include "io/gltf_buffer.h"
 #include "io/mesh_limits.h"
@@ -43,6 +45,28 @@ constexpr int type_uint8 = 5121;
 constexpr int type_uint16 = 5123;
 constexpr int type_uint32 = 5125;
 constexpr int type_float = 5126;
+
+std::size_t size_of(int component_type)
+{
+    return component_type == type_uint8 ? 1 : component_type == type_uint16 ? 2 : 4;
+}
+
+/// A component of a color, which is a whole number or a float, from 0 to 1.
+double color_component(const std::uint8_t* bytes, int type)
+{
+    std::uint16_t whole = 0;
+    float real = 0.0f;
+    switch (type) {
+    case type_uint8:
+        return *bytes / 255.0;
+    case type_uint16:
+        std::memcpy(&whole, bytes, sizeof(whole));
+        return whole / 65535.0;
+    default:
+        std::memcpy(&real, bytes, sizeof(real));
+        return static_cast<double>(real);
+    }
+}
 
 std::uint32_t word_at(std::span<const std::uint8_t> bytes, std::size_t offset)
 {
@@ -81,8 +105,7 @@ int json_depth(std::span<const std::uint8_t> text)
 
 class GltfReducer {
 public:
-    GltfReducer(std::span<const std::uint8_t> bytes, std::filesystem::path path)
-        : file_size_(bytes.size()), path_(std::move(path))
+    GltfReducer(std::span<const std::uint8_t> bytes, std::filesystem::path path) : path_(std::move(path))
     {
         std::span<const std::uint8_t> text = bytes;
         std::span<const std::uint8_t> bin;
@@ -92,6 +115,7 @@ public:
         parse(text);
         check_version();
         load_buffers(bin);
+        size_ = bytes.size() + data_.size();
     }
 
     std::vector<std::uint8_t> reduce()
@@ -108,6 +132,21 @@ private:
         std::size_t index = 0; ///< in what is written
         std::uint64_t count = 0;
         std::uint64_t highest = 0; ///< of indices: the vertex furthest back
+    };
+    /// What an accessor stands for, in data_.
+    struct Elements {
+        std::size_t accessor = 0; ///< in the file
+        std::string_view type;    ///< "SCALAR", "VEC3" or "VEC4"
+        int component_type = 0;
+        std::uint64_t begin = 0;
+        std::uint64_t stride = 0; ///< bytes from one to the next
+        std::uint64_t count = 0;
+
+        [[nodiscard]] std::size_t size() const // bytes of one
+        {
+            return size_of(component_type) * (type == "SCALAR" ? 1 : type == "VEC3" ? 3 : 4);
+        }
+        [[nodiscard]] std::uint64_t extent() const { return (count - 1) * stride + size(); } // bytes, of one or more
     };
     struct MeshSize {
         std::uint64_t vertices = 0;
@@ -252,63 +291,114 @@ private:
 
     // --- accessors -------------------------------------------------------------------------------------------------
 
-    /// Checks an accessor and where its data lie, and makes one with a view of its own.
-    Accessor reduce_accessor(const Json& value, const char* key, std::string_view type,
-                             std::initializer_list<std::pair<int, std::size_t>> component_types)
+    /// The elements of the accessor that a value names. Checks that they are of one of these types, and lie in a
+    /// buffer.
+    [[nodiscard]] Elements elements_of(const Json& value, const char* key,
+                                       std::initializer_list<std::string_view> types,
+                                       std::initializer_list<int> component_types) const
     {
         const std::size_t index = reference(value, key, list(in_, "accessors"));
         const Json& accessor = list(in_, "accessors")[index];
         const std::uint64_t component = number(accessor, "componentType");
-        const auto* const known = std::find_if(component_types.begin(), component_types.end(), [&](const auto& each) {
-            return static_cast<std::uint64_t>(each.first) == component;
+        const auto* const type = std::find_if(types.begin(), types.end(),
+                                              [&](std::string_view each) { return member(accessor, "type") == each; });
+        const auto* const component_type = std::find_if(component_types.begin(), component_types.end(), [&](int each) {
+            return static_cast<std::uint64_t>(each) == component;
         });
-        if (member(accessor, "type") != type || known == component_types.end()) {
+        if (type == types.end() || component_type == component_types.end()) {
             throw input_error("{}: \"{}\" of the glTF file has a type that is not supported", path_.string(), key);
         }
         if (!member(accessor, "sparse").is_null()) {
             throw error("sparse accessors of glTF are not supported");
         }
-        if (!accessors_.contains(index)) {
-            add_accessor(accessor, index, known->second, type == "VEC3" ? 3 : 1);
-        }
-        return accessors_.at(index);
-    }
-
-    void add_accessor(const Json& accessor, std::size_t index, std::size_t component_size, std::size_t components)
-    {
-        const std::size_t element_size = component_size * components;
-        const std::uint64_t count = number(accessor, "count");
+        Elements elements{.accessor = index, .type = *type, .component_type = *component_type};
+        elements.count = number(accessor, "count");
         const Json& views = list(in_, "bufferViews");
         const Json& view = views[reference(member(accessor, "bufferView"), "bufferView", views)];
         const auto& [base, size] = buffers_[reference(member(view, "buffer"), "buffer", list(in_, "buffers"))];
         const std::uint64_t view_offset = number(view, "byteOffset", 0);
         const std::uint64_t view_size = number(view, "byteLength");
         const std::uint64_t offset = number(accessor, "byteOffset", 0);
-        const std::uint64_t stride = number(view, "byteStride", element_size);
+        elements.stride = number(view, "byteStride", elements.size());
         const bool view_fits = view_offset <= size && view_size <= size - view_offset;
-        const bool stride_fits = stride >= element_size && stride <= 4096;
-        if (!view_fits || !stride_fits || count == 0 || count > view_size ||
-            offset + (count - 1) * stride + element_size > view_size) {
+        const bool stride_fits = elements.stride >= elements.size() && elements.stride <= 4096;
+        if (!view_fits || !stride_fits || elements.count == 0 || elements.count > view_size ||
+            offset + elements.extent() > view_size) {
             throw input_error("{}: accessor {} of the glTF file reaches beyond its buffer", path_.string(), index);
         }
-        const std::uint64_t begin = base + view_offset + offset;
-        Json& out_views = out_["bufferViews"];
-        out_views.push_back(
-            {{"buffer", 0}, {"byteOffset", begin}, {"byteLength", (count - 1) * stride + element_size}});
-        if (stride != element_size) {
-            out_views.back()["byteStride"] = stride;
+        elements.begin = base + view_offset + offset;
+        return elements;
+    }
+
+    /// Checks an accessor and where its data lie, and makes one with a view of its own.
+    Accessor reduce_accessor(const Json& value, const char* key, std::string_view type,
+                             std::initializer_list<int> component_types)
+    {
+        const Elements elements = elements_of(value, key, {type}, component_types);
+        if (!accessors_.contains(elements.accessor)) {
+            Accessor& added = accessors_[elements.accessor];
+            added = {.index = write_accessor(elements), .count = elements.count};
+            for (std::uint64_t i = 0; type == "SCALAR" && i < elements.count; ++i) {
+                std::uint32_t vertex = 0;
+                std::memcpy(&vertex, &data_[elements.begin + i * elements.stride], elements.size());
+                added.highest = std::max<std::uint64_t>(added.highest, vertex);
+            }
         }
-        Accessor& added = accessors_[index];
-        added = {.index = out_["accessors"].size(), .count = count};
-        for (std::uint64_t i = 0; components == 1 && i < count; ++i) {
-            std::uint32_t value = 0;
-            std::memcpy(&value, &data_[begin + i * stride], component_size);
-            added.highest = std::max<std::uint64_t>(added.highest, value);
+        return accessors_.at(elements.accessor);
+    }
+
+    /// Checks the colors of `count` vertices, and writes them as sRGB. Returns the index of their accessor in what is
+    /// written.
+    std::size_t reduce_colors(const Json& value, std::uint64_t count)
+    {
+        const Elements elements =
+            elements_of(value, "COLOR_0", {"VEC3", "VEC4"}, {type_float, type_uint8, type_uint16});
+        if (elements.count != count) {
+            throw error("a mesh of the glTF file has not as many colors as vertices");
         }
-        out_["accessors"].push_back({{"bufferView", out_views.size() - 1},
-                                     {"componentType", member(accessor, "componentType")},
-                                     {"type", member(accessor, "type")},
-                                     {"count", count}});
+        const auto known = colors_.find(elements.accessor);
+        if (known != colors_.end()) {
+            return known->second;
+        }
+        color_count_ += count;
+        if (color_count_ > size_ / 3) { // of three bytes or more each
+            throw error("the accessors of colors in the glTF file overlap");
+        }
+        Elements written{.type = "VEC4", .component_type = type_uint8, .begin = data_.size(), .count = count};
+        written.stride = written.size();
+        if (written.extent() > largest_buffers - data_.size()) {
+            throw error("the buffers have more than 2 GiB");
+        }
+        data_.resize(data_.size() + written.extent(), 255);
+        for (std::uint64_t i = 0; i < count; ++i) {
+            for (std::size_t channel = 0; channel < 3; ++channel) {
+                const std::uint64_t place =
+                    elements.begin + i * elements.stride + channel * size_of(elements.component_type);
+                const double light = color_component(&data_[place], elements.component_type);
+                if (!std::isfinite(light)) {
+                    throw input_error("{}: color {} of accessor {} of the glTF file is not finite", path_.string(), i,
+                                      elements.accessor);
+                }
+                data_[written.begin + i * written.stride + channel] = color_byte(255.0 * srgb_from_linear(light));
+            }
+        }
+        return colors_[elements.accessor] = write_accessor(written);
+    }
+
+    /// Returns its index in what is written.
+    std::size_t write_accessor(const Elements& elements)
+    {
+        Json& views = out_["bufferViews"];
+        views.push_back({{"buffer", 0}, {"byteOffset", elements.begin}, {"byteLength", elements.extent()}});
+        if (elements.stride != elements.size()) {
+            views.back()["byteStride"] = elements.stride;
+        }
+        Json& accessors = out_["accessors"];
+        accessors.push_back({{"bufferView", views.size() - 1},
+                             {"componentType", elements.component_type},
+                             {"type", elements.type},
+                             {"count", elements.count}});
+        return accessors.size() - 1;
     }
 
     // --- meshes ----------------------------------------------------------------------------------------------------
@@ -338,12 +428,10 @@ private:
     void reduce_primitive(const Json& primitive, std::uint64_t mode, Json& primitives, MeshSize& size)
     {
         const Json& attributes = member(primitive, "attributes");
-        const Accessor positions =
-            reduce_accessor(member(attributes, "POSITION"), "POSITION", "VEC3", {{type_float, sizeof(float)}});
+        const Accessor positions = reduce_accessor(member(attributes, "POSITION"), "POSITION", "VEC3", {type_float});
         Json out = {{"mode", mode}, {"attributes", {{"POSITION", positions.index}}}};
         if (!member(attributes, "NORMAL").is_null()) {
-            const Accessor normals =
-                reduce_accessor(member(attributes, "NORMAL"), "NORMAL", "VEC3", {{type_float, sizeof(float)}});
+            const Accessor normals = reduce_accessor(member(attributes, "NORMAL"), "NORMAL", "VEC3", {type_float});
             if (normals.count != positions.count) {
                 throw error("a mesh of the glTF file has not as many normals as vertices");
             }
@@ -352,7 +440,7 @@ private:
         std::uint64_t corners = positions.count;
         if (!member(primitive, "indices").is_null()) {
             const Accessor indices = reduce_accessor(member(primitive, "indices"), "indices", "SCALAR",
-                                                     {{type_uint8, 1}, {type_uint16, 2}, {type_uint32, 4}});
+                                                     {type_uint8, type_uint16, type_uint32});
             if (indices.highest >= positions.count) {
                 throw input_error("{}: a face names vertex {} of {}", path_.string(), indices.highest, positions.count);
             }
@@ -365,13 +453,16 @@ private:
         size.vertices += positions.count;
         size.triangles += mode == mode_triangles ? corners / 3 : corners - 2;
         check_total(size);
+        if (!member(attributes, "COLOR_0").is_null()) {
+            out["attributes"]["COLOR_0"] = reduce_colors(member(attributes, "COLOR_0"), positions.count);
+        }
         primitives.push_back(std::move(out));
     }
 
     /// Instances let a small file grow: beyond ten million, a mesh must really be in the file, byte for byte.
     void check_total(const MeshSize& size) const
     {
-        const std::uint64_t most = std::max<std::uint64_t>(most_instances, (file_size_ + data_.size()) / 3);
+        const std::uint64_t most = std::max<std::uint64_t>(most_instances, size_ / 3);
         if (size.vertices > most || size.triangles > std::min<std::uint64_t>(most, most_triangles)) {
             throw input_error("{}: the meshes and their instances have more than {} triangles or vertices",
                               path_.string(), std::min<std::uint64_t>(most, most_triangles));
@@ -494,13 +585,15 @@ private:
         return glb;
     }
 
-    std::size_t file_size_;
+    std::uint64_t size_ = 0; ///< bytes of the file and its buffers
     std::filesystem::path path_;
     Json in_;
     Json out_ = Json::object();
-    std::vector<std::uint8_t> data_;                           ///< all buffers, one after the other
+    std::vector<std::uint8_t> data_;                           ///< all buffers, one after the other, then colors
     std::vector<std::pair<std::size_t, std::size_t>> buffers_; ///< where each begins, and its size
     std::map<std::size_t, Accessor> accessors_;                ///< indices in the file -> in what is written
+    std::map<std::size_t, std::size_t> colors_;                ///< likewise
+    std::uint64_t color_count_ = 0;                            ///< of all that are written
     std::vector<MeshSize> mesh_sizes_;                         ///< of all meshes of the file
     std::vector<std::optional<std::size_t>> mesh_index_;       ///< in what is written
 };

@@ -5,6 +5,8 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <utility>
+#include <vector>
 
 #include <assimp/BaseImporter.h>
 #include <assimp/Importer.hpp>
@@ -12,6 +14,7 @@
 #include <assimp/importerdesc.h>
 #include <assimp/scene.h>
 
+#include "core/color.h"
 #include "core/error.h"
 #include "geometry/polygon_triangulation.h"
 #include "io/gltf_reduce.h"
@@ -55,7 +58,25 @@ glm::vec3 to_glm(const aiVector3D& v)
     return {v.x, v.y, v.z};
 }
 
-/// Appends the triangles of one of the scene's meshes. Parts without normals get zero ones beside parts with.
+glm::u8vec3 to_glm(const aiColor4D& c)
+{
+    return {color_byte(255.0 * static_cast<double>(c.r)), color_byte(255.0 * static_cast<double>(c.g)),
+            color_byte(255.0 * static_cast<double>(c.b))};
+}
+
+/// Appends one value a vertex of a part, if the part or the whole has any; `none` stands for those that have none.
+template <class T>
+void append_values(std::vector<T>& whole, std::size_t whole_count, std::vector<T> part, std::size_t part_count, T none)
+{
+    if (!whole.empty() || !part.empty()) {
+        whole.resize(whole_count, none);
+        part.resize(part_count, none);
+        whole.insert(whole.end(), part.begin(), part.end());
+    }
+}
+
+/// Appends the triangles of one of the scene's meshes. Beside parts with normals or colors, those without have normals
+/// of zero and are white.
 void append(TriangleMesh& whole, const aiMesh& part, const glm::mat4& placement)
 {
     TriangleMesh mesh;
@@ -68,6 +89,11 @@ void append(TriangleMesh& whole, const aiMesh& part, const glm::mat4& placement)
             mesh.normals.push_back(to_glm(part.mNormals[i]));
         }
     }
+    if (part.HasVertexColors(0)) {
+        for (unsigned i = 0; i < part.mNumVertices; ++i) {
+            mesh.colors.push_back(to_glm(part.mColors[0][i]));
+        }
+    }
     for (unsigned i = 0; i < part.mNumFaces; ++i) {
         const aiFace& face = part.mFaces[i];
         triangulate_polygon({face.mIndices, face.mNumIndices}, mesh.positions, mesh.triangles);
@@ -75,11 +101,10 @@ void append(TriangleMesh& whole, const aiMesh& part, const glm::mat4& placement)
     transform(mesh, placement);
 
     const auto first = static_cast<std::uint32_t>(whole.positions.size());
-    if (!mesh.normals.empty() || !whole.normals.empty()) {
-        whole.normals.resize(whole.positions.size(), glm::vec3(0.0f));
-        mesh.normals.resize(mesh.positions.size(), glm::vec3(0.0f));
-        whole.normals.insert(whole.normals.end(), mesh.normals.begin(), mesh.normals.end());
-    }
+    append_values(whole.normals, whole.positions.size(), std::move(mesh.normals), mesh.positions.size(),
+                  glm::vec3(0.0f));
+    append_values(whole.colors, whole.positions.size(), std::move(mesh.colors), mesh.positions.size(),
+                  glm::u8vec3(255));
     whole.positions.insert(whole.positions.end(), mesh.positions.begin(), mesh.positions.end());
     for (const glm::uvec3& corners : mesh.triangles) {
         whole.triangles.push_back(corners + first);

@@ -2,7 +2,11 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
+#include <optional>
 #include <string_view>
+
+#include <fmt/format.h>
 
 #include "io/mesh_limits.h"
 #include "io/text_scanner.h"
@@ -27,6 +31,19 @@ std::string_view take_word(std::string_view& line)
     return word;
 }
 
+/// The words of a line, as many as can matter: those of a vertex with its color.
+struct Words {
+    explicit Words(std::string_view line)
+    {
+        while (count < word.size() && !(word[count] = take_word(line)).empty()) {
+            ++count;
+        }
+    }
+
+    std::array<std::string_view, 6> word;
+    std::size_t count = 0;
+};
+
 class ObjReducer {
 public:
     ObjReducer(std::span<const std::uint8_t> bytes, const std::string& name)
@@ -37,8 +54,21 @@ public:
 
     std::vector<std::uint8_t> reduce()
     {
+        for_each_line([this](std::string_view line) { find_colors(line); });
+        for_each_line([this](std::string_view line) { add(line); });
+        check_triangles(faces_, name_);
+        return std::move(out_);
+    }
+
+private:
+    /// Without comments; lines that end in a backslash are joined with the next.
+    template <class Use>
+    void for_each_line(const Use& use)
+    {
+        left_ = text_;
+        line_number_ = 0;
         std::string joined;
-        while (!text_.empty()) {
+        while (!left_.empty()) {
             std::string_view line = physical_line();
             if (continues(line)) {
                 joined.clear();
@@ -48,31 +78,43 @@ public:
                 }
                 line = joined.append(line);
             }
-            add(line.substr(0, line.find('#')));
+            use(line.substr(0, line.find('#')));
         }
-        check_triangles(faces_, name_);
-        return std::move(out_);
     }
 
-private:
     std::string_view physical_line()
     {
-        const std::size_t end = std::min(text_.find('\n'), text_.size());
-        const std::string_view line = text_.substr(0, end);
-        text_.remove_prefix(std::min(end + 1, text_.size()));
+        const std::size_t end = std::min(left_.find('\n'), left_.size());
+        const std::string_view line = left_.substr(0, end);
+        left_.remove_prefix(std::min(end + 1, left_.size()));
         ++line_number_;
         return line;
     }
 
     static bool continues(std::string_view line) { return line.ends_with('\\') || line.ends_with("\\\r"); }
 
+    /// Whether there are colors, and what white is in them, can only be told from the whole file.
+    void find_colors(std::string_view line)
+    {
+        if (take_word(line) != "v") {
+            return;
+        }
+        const Words words(line);
+        for (std::size_t i = 3; words.count == 6 && i < 6; ++i) {
+            const double least_of_bytes = 2.0; // a little above 1 is a color from 0 to 1 that overshoots
+            const bool is_bytes = to_number(words.word[i]).value_or(0.0) >= least_of_bytes;
+            white_ = is_bytes ? 255.0 : white_.value_or(1.0);
+        }
+    }
+
     void add(std::string_view line)
     {
         const std::string_view keyword = take_word(line);
         if (keyword == "v") {
-            add_vector("v", line, 4);
+            add_vertex(Words(line));
         } else if (keyword == "vn") {
-            add_vector("vn", line, 3);
+            add_vector("vn", Words(line));
+            write("\n");
         } else if (keyword == "vt") {
             write("vt 0 0\n"); // faces count them
         } else if (keyword == "f") {
@@ -80,27 +122,58 @@ private:
         }
     }
 
-    /// Three numbers, or, for points in homogeneous coordinates, exactly four: what is more are colors.
-    void add_vector(std::string_view keyword, std::string_view line, std::size_t most)
+    /// x y z, then nothing, a weight that they are divided by (points in homogeneous coordinates), or a color.
+    void add_vertex(const Words& words)
     {
-        constexpr std::size_t enough = 5;
-        std::array<std::string_view, enough> words;
-        std::size_t count = 0;
-        while (count < enough && !(words[count] = take_word(line)).empty()) {
-            ++count;
+        if (words.count == 5) {
+            throw error("a vertex has two numbers behind its coordinates, where a color has three");
         }
-        if (count < 3) {
+        if (words.count == 4) {
+            const double weight = coordinate(words.word[3]);
+            write("v");
+            for (std::size_t i = 0; i < 3; ++i) {
+                write(fmt::format(" {}", static_cast<float>(coordinate(words.word[i]) / weight)));
+            }
+        } else {
+            add_vector("v", words);
+        }
+        for (std::size_t i = 3; white_ && i < 6; ++i) {
+            write(fmt::format(" {:.4f}", words.count == 6 ? channel(words.word[i]) : 1.0));
+        }
+        write("\n");
+    }
+
+    /// The first three numbers, in the file's own digits.
+    void add_vector(std::string_view keyword, const Words& words)
+    {
+        if (words.count < 3) {
             throw error("a vertex or normal has fewer than three coordinates");
         }
         write(keyword);
-        for (std::size_t i = 0; i < (count == most ? most : 3); ++i) {
-            if (!to_number(words[i])) { // the importer would take it for zero
-                throw error("a coordinate is not a number");
-            }
+        for (std::size_t i = 0; i < 3; ++i) {
+            (void)coordinate(words.word[i]);
             write(" ");
-            write(words[i]);
+            write(words.word[i]);
         }
-        write("\n");
+    }
+
+    [[nodiscard]] double coordinate(std::string_view word) const
+    {
+        const std::optional<double> value = to_number(word);
+        if (!value) { // the importer would take it for zero
+            throw error("a coordinate is not a number");
+        }
+        return *value;
+    }
+
+    /// Of a color, from 0 to 1.
+    [[nodiscard]] double channel(std::string_view word) const
+    {
+        const std::optional<double> value = to_number(word);
+        if (!value || !std::isfinite(*value)) {
+            throw error("a color is not a finite number");
+        }
+        return std::clamp(*value / *white_, 0.0, 1.0);
     }
 
     void add_face(std::string_view line)
@@ -132,9 +205,11 @@ private:
         return input_error("{}:{}: {}", name_, line_number_, message);
     }
 
-    std::string_view text_; ///< what is left
+    std::string_view text_;
+    std::string_view left_; ///< of the text, in this pass over its lines
     const std::string& name_;
     std::vector<std::uint8_t> out_;
+    std::optional<double> white_; ///< a channel of it, where the file has colors
     std::size_t line_number_ = 0;
     std::size_t faces_ = 0; ///< as triangles
 };

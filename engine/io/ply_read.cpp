@@ -8,6 +8,7 @@
 #include <optional>
 #include <string_view>
 
+#include "core/color.h"
 #include "geometry/polygon_triangulation.h"
 #include "io/mesh_limits.h"
 #include "io/ply_header.h"
@@ -149,8 +150,7 @@ std::uint8_t color_of(double value, PlyType type)
 {
     const bool is_float = type == PlyType::Float32 || type == PlyType::Float64;
     const bool is_wide = type == PlyType::Int16 || type == PlyType::Uint16;
-    const double scaled = is_float ? 255.0 * value : is_wide ? value / 257.0 : value;
-    return scaled > 0.0 ? static_cast<std::uint8_t>(std::lround(std::min(scaled, 255.0))) : 0; // not a number: 0
+    return color_byte(is_float ? 255.0 * value : is_wide ? value / 257.0 : value);
 }
 
 void read_vertices(Body& body, const PlyElement& element, const std::string& name, PlyContent& content)

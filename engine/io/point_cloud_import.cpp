@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "core/aabb.h"
+#include "core/color.h"
 #include "core/error.h"
 #include "io/input_file.h"
 #include "io/ply_header.h"
@@ -98,11 +99,6 @@ bool are_colors(const std::vector<glm::vec3>& triples)
     return std::all_of(triples.begin(), triples.end(), fits) && !std::all_of(triples.begin(), triples.end(), is_unit);
 }
 
-std::uint8_t channel(double value)
-{
-    return static_cast<std::uint8_t>(std::lround(std::clamp(value, 0.0, 255.0)));
-}
-
 PointCloud read_xyz(std::span<const std::uint8_t> bytes, const std::string& name)
 {
     TextScanner text(bytes, name);
@@ -137,7 +133,7 @@ PointCloud read_xyz(std::span<const std::uint8_t> bytes, const std::string& name
             cloud.normals.emplace_back(columns[3], columns[4], columns[5]);
         }
         if (count == 9) {
-            cloud.colors.emplace_back(channel(columns[6]), channel(columns[7]), channel(columns[8]));
+            cloud.colors.emplace_back(color_byte(columns[6]), color_byte(columns[7]), color_byte(columns[8]));
         }
     }
     if (promised && *promised != static_cast<double>(cloud.size())) {
@@ -146,7 +142,7 @@ PointCloud read_xyz(std::span<const std::uint8_t> bytes, const std::string& name
     cloud.intensity_ignored = first_count == 4;
     if (first_count == 6 && are_colors(cloud.normals)) {
         for (const glm::vec3& c : cloud.normals) {
-            cloud.colors.emplace_back(channel(c.x), channel(c.y), channel(c.z));
+            cloud.colors.emplace_back(color_byte(c.x), color_byte(c.y), color_byte(c.z));
         }
         cloud.normals.clear();
     }

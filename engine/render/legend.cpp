@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include "core/color.h"
 #include "core/error.h"
 #include "render/bitmap_font.h"
 #include "shared/colormap.h"
@@ -16,14 +17,12 @@ namespace {
 
 constexpr std::uint32_t cap_height = 7; // of the font's capitals and digits
 
-/// 8-bit sRGB of linear RGB (IEC 61966-2-1).
+/// 8-bit sRGB of linear RGB.
 glm::u8vec3 encode(const glm::vec3& linear)
 {
     glm::u8vec3 encoded;
     for (int i = 0; i < 3; ++i) {
-        const float c = std::clamp(linear[i], 0.0f, 1.0f);
-        const float s = c <= 0.0031308f ? 12.92f * c : 1.055f * std::pow(c, 1.0f / 2.4f) - 0.055f;
-        encoded[i] = static_cast<std::uint8_t>(std::lround(255.0f * s));
+        encoded[i] = color_byte(255.0 * srgb_from_linear(static_cast<double>(linear[i])));
     }
     return encoded;
 }

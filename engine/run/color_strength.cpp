@@ -4,6 +4,7 @@
 #include <cmath>
 #include <variant>
 
+#include "core/color.h"
 #include "core/error.h"
 #include "core/overloaded.h"
 #include "core/parallel_for.h"
@@ -17,11 +18,9 @@ namespace {
 
 constexpr double most_points = 4e6; // of a surface: beyond, they lie farther apart
 
-/// IEC 61966-2-1.
 double linear(std::uint8_t encoded)
 {
-    const double c = encoded / 255.0;
-    return c <= 0.04045 ? c / 12.92 : std::pow((c + 0.055) / 1.055, 2.4);
+    return linear_from_srgb(encoded / 255.0);
 }
 
 SurfaceRequest request(double area, double spacing, std::uint64_t seed)
@@ -61,7 +60,7 @@ PointCloud colored_surfaces(const Scene& scene, const SceneMaterials& materials,
         if (points.colors.empty()) {
             const auto* mesh = std::get_if<MeshShape>(&scene.solids[s].shape);
             throw input_error("{}: solid.{}.strength_from is \"color\", but {} has none that are read: those of the "
-                              "vertices of a mesh (.ply), or of points (.ply, .xyz)",
+                              "vertices of a mesh (.obj, .ply, .gltf, .glb), or of points (.ply, .xyz)",
                               scene.name, s, mesh != nullptr ? mesh->mesh : "its shape");
         }
         all.positions.insert(all.positions.end(), points.positions.begin(), points.positions.end());

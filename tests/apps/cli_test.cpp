@@ -20,7 +20,9 @@
 
 #include "support/cli.h"
 #include "support/clouds.h"
+#include "support/mesh_files.h"
 #include "support/scratch_folder.h"
+#include "support/two_colors.h"
 
 namespace meltpoint {
 namespace {
@@ -148,6 +150,51 @@ TEST_F(Cli, RendersAScanAsFluid)
         EXPECT_NE(result.out.find("2 frames of "), std::string::npos) << result.out;
         EXPECT_EQ(files("out"), (Arguments{"frame_0000.png", "frame_0001.png"}));
     }
+}
+
+TEST_F(Cli, ABedIsStrongWhereItsObjIsBright)
+{
+    const auto render = [&](const std::string& mesh, const std::string& content) {
+        test::write_bytes(path(mesh), content);
+        test::write_bytes(path("bed.toml"), R"(
+domain = { min = [-0.5, 0, -0.2], max = [0.5, 1, 0.2] }
+particles.spacing = 0.05
+[[fluid]]
+shape = "block"
+min = [-0.5, 0.2, -0.2]
+max = [0.5, 0.5, 0.2]
+velocity = [0, 0, 1]
+[[solid]]
+shape = "mesh"
+mesh = ")" + mesh + R"("
+position = [0, 0.1, 0]
+anchor = "all"
+erodes = true
+erosion_threshold = 0
+erosion_rate = 300
+strength_from = "color"
+strength_contrast = 3
+)");
+        return run(
+            {"render", "bed.toml", "--frames", "3", "--size", "96x54", "--force", "--out", "out", "--stats", "s.csv"});
+    };
+    const auto worn = [&](const std::string& mesh, const std::string& content) { // kg/s, of the last frame
+        const Result result = render(mesh, content);
+        EXPECT_EQ(result.exit_code, 0) << result.err;
+        const std::vector<std::string> lines = split(bytes("s.csv"), '\n');
+        const std::vector<std::string> names = split(lines.at(0), ',');
+        const auto column = std::find(names.begin(), names.end(), "rate_hydraulic") - names.begin();
+        return std::stod(split(lines.at(3), ',').at(static_cast<std::size_t>(column)));
+    };
+    TriangleMesh bed = test::black_and_white_box({1.0f, 0.2f, 0.4f});
+    const double half_black = worn("bed.ply", test::ascii_ply_of(bed));
+    EXPECT_GT(half_black, 0.0);
+    EXPECT_EQ(worn("bed.obj", test::obj_of(bed)), half_black);
+    std::fill(bed.colors.begin(), bed.colors.end(), glm::u8vec3(255));
+    EXPECT_LT(worn("bed.obj", test::obj_of(bed)), 0.2 * half_black);
+    bed.colors.clear();
+    expect_one_sentence(render("bed.obj", test::obj_of(bed)), 2,
+                        "bed.obj has none that are read: those of the vertices of a mesh (.obj, .ply, .gltf, .glb)");
 }
 
 TEST_F(Cli, BadInputIsOneSentenceAndExitsWithTwo)

@@ -134,6 +134,34 @@ TEST_F(SampleCli, BlueNoiseFillsWithExactlyTheCount)
     EXPECT_NE(bytes("v.ply"), bytes("w.ply"));
 }
 
+/// A quad, black on the left and reddish on the right.
+TriangleMesh colored_quad()
+{
+    return {.positions = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}},
+            .triangles = {{0, 1, 2}, {0, 2, 3}},
+            .normals = {},
+            .colors = {{0, 0, 0}, {200, 100, 0}, {200, 100, 0}, {0, 0, 0}}};
+}
+
+TEST_F(SampleCli, PointsHaveTheColorsOfAMeshInEveryFormat)
+{
+    write("m.ply", test::ascii_ply_of(colored_quad()));
+    write("m.obj", test::obj_of(colored_quad()));
+    write("m.gltf", test::gltf_of(colored_quad()));
+    write("m.glb", test::glb_of(colored_quad()));
+    for (const std::string name : {"m.ply", "m.obj", "m.gltf", "m.glb"}) {
+        EXPECT_EQ(sample({name, "-o", "of_" + name + ".ply", "--count", "500"}).exit_code, 0) << name;
+        EXPECT_EQ(bytes("of_" + name + ".ply"), bytes("of_m.ply.ply")) << name;
+    }
+    const PointCloud cloud = import_point_cloud(path("of_m.ply.ply"));
+    ASSERT_EQ(cloud.colors.size(), 500u);
+    for (std::size_t i = 0; i < cloud.size(); ++i) {
+        ASSERT_NEAR(cloud.colors[i].r, 200.0f * cloud.positions[i].x, 0.51f);
+    }
+    write("nan.obj", "v 0 0 0 1 0 nan\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
+    expect_one_sentence(sample({"nan.obj", "-o", "nan.ply"}), 2, "nan.obj:1: a color is not a finite number");
+}
+
 // --- clouds of points ----------------------------------------------------------------------------
 
 /// A sphere as an ASCII PLY: colored by height and, where asked, with normals.

@@ -50,6 +50,8 @@ int main(int argc, char** argv)
     write_all(folder, "plain", tetrahedron);
     tetrahedron.normals = {{-1, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
     write_all(folder, "normals", tetrahedron);
+    tetrahedron.colors = {{255, 0, 0}, {0, 128, 255}, {10, 20, 30}, {255, 255, 255}};
+    write_all(folder, "colors", tetrahedron);
     write(folder / "xyz", "plain", "# points\n0 0 0\n1.5e0 -2 3\n");
     write(folder / "xyz", "named", "//X Y Z I\nx,y,z,i\n2\n0 0 0 0.5\n1 2 3 7 // the last\n");
     write(folder / "xyz", "full", "0 0 0 0 0 1 255 0 0\n1,2,3,1,0,0,1,2,3\n");

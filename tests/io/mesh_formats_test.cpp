@@ -24,6 +24,7 @@ struct Format {
     std::function<std::string(const TriangleMesh&)> write;
     bool has_normals = true;
     bool is_text = false; ///< of which a prefix may be whole
+    bool has_colors = true;
 };
 
 const std::vector<Format>& formats()
@@ -39,8 +40,8 @@ const std::vector<Format>& formats()
                                           [](const auto& mesh) {
                                               return binary_ply_of(mesh, ByteOrder::Big);
                                           }},
-                                         {"StlAscii", "m.stl", ascii_stl_of, false, true},
-                                         {"StlBinary", "m.STL", binary_stl_of, false},
+                                         {"StlAscii", "m.stl", ascii_stl_of, false, true, false},
+                                         {"StlBinary", "m.STL", binary_stl_of, false, false, false},
                                          {"Gltf", "m.gltf",
                                           [](const auto& mesh) {
                                               return gltf_of(mesh);
@@ -49,7 +50,7 @@ const std::vector<Format>& formats()
                                           [](const auto& mesh) {
                                               return glb_of(mesh);
                                           }},
-                                         {"Off", "m.off", off_of, true, true}};
+                                         {"Off", "m.off", off_of, true, true, false}};
     return all;
 }
 
@@ -109,9 +110,33 @@ TEST_P(MeshFormat, WithoutNormalsThereAreNone)
     EXPECT_NEAR(signed_volume(read), 1.0, 1e-6);
 }
 
+/// The builtin mesh with every value from 0 to 255 in each channel, if it has as many vertices.
+TriangleMesh colored(const std::string& name)
+{
+    TriangleMesh mesh = builtin_mesh(name);
+    for (std::size_t i = 0; i < mesh.positions.size(); ++i) {
+        mesh.colors.emplace_back(i % 256, 255 - i % 256, i * 7 % 256);
+    }
+    return mesh;
+}
+
+TEST_P(MeshFormat, BringsBackTheSameColors)
+{
+    const TriangleMesh written = colored("torus");
+    ASSERT_GE(written.positions.size(), 256u);
+    const TriangleMesh read = parse(format().write(written), format().file);
+    ASSERT_EQ(read.colors.size(), format().has_colors ? read.positions.size() : 0u);
+    for (std::size_t t = 0; format().has_colors && t < written.triangles.size(); ++t) {
+        for (int corner = 0; corner < 3; ++corner) {
+            ASSERT_EQ(read.colors[read.triangles[t][corner]], written.colors[written.triangles[t][corner]]);
+        }
+    }
+    EXPECT_TRUE(parse(format().write(builtin_mesh("torus")), format().file).colors.empty());
+}
+
 TEST_P(MeshFormat, TruncationAtEveryByteIsRefused)
 {
-    const std::string whole = format().write(builtin_mesh("cube"));
+    const std::string whole = format().write(colored("cube"));
     for (std::size_t length = 0; length < whole.size(); ++length) {
         const std::string message = refused(whole.substr(0, length));
         // A text that ends within its last number or line may make sense; OBJ and its lines always do.
@@ -136,7 +161,7 @@ TEST_P(MeshFormat, JunkIsRefused)
         EXPECT_NE(refused(junk), "");
     }
     // A good file with some bytes overwritten, cut out or repeated: accepted or refused, never a crash.
-    const std::string good = format().write(builtin_mesh("cube"));
+    const std::string good = format().write(colored("cube"));
     for (int file = 0; file < 500; ++file) {
         std::string bad = good;
         const std::size_t place = static_cast<unsigned char>(byte()) * std::size_t{7919} % bad.size();
@@ -396,6 +421,56 @@ TEST(ObjFile, ColorsContinuationsAndWeights)
     EXPECT_NEAR(surface_area(mesh), 1.0, 1e-6);
 }
 
+/// The colors of the corners (0, 0, 0), (1, 0, 0) and (0, 1, 0) of a triangle.
+using Colors = std::vector<glm::u8vec3>;
+
+/// What stands behind the coordinates of its corners in an OBJ file.
+Colors obj_colors(const std::string& a, const std::string& b, const std::string& c)
+{
+    return parse(fmt::format("v 0 0 0 {}\nv 1 0 0 {}\nv 0 1 0 {}\nf 1 2 3\n", a, b, c), "m.obj").colors;
+}
+
+TEST(ObjFile, ColorsAreFromZeroToOneOrTo255)
+{
+    const Colors expected{{255, 0, 128}, {0, 255, 0}, {51, 51, 51}};
+    EXPECT_EQ(obj_colors("1 0 0.502", "0 1.0 0", "0.2 +2e-1 .2"), expected);
+    EXPECT_EQ(obj_colors("255 0 128", "0 255 0", "51 51 51"), expected);
+    EXPECT_EQ(obj_colors("255.0 -9 127.6", "0 300 0", "51.2 51 51"), expected) << "rounded, and kept in range";
+    EXPECT_EQ(obj_colors("1 0 0.502 0.5", "0 1 0 1", "0.2 0.2 0.2 9"), expected) << "an alpha says nothing";
+    EXPECT_EQ(obj_colors("1.1 -0.5 0.502", "0 1.999 0", "0.2 0.2 0.2"), expected) << "too bright, but no bytes";
+    EXPECT_EQ(obj_colors("2 0 1", "0 1 0", "0 0 0"), (Colors{{2, 0, 1}, {0, 1, 0}, {0, 0, 0}}));
+    EXPECT_EQ(obj_colors("1 0 1", "0 1 0", "0 0 0"), (Colors{{255, 0, 255}, {0, 255, 0}, {0, 0, 0}}));
+}
+
+TEST(ObjFile, VerticesWithoutAColorAreWhiteBesideOthers)
+{
+    EXPECT_EQ(obj_colors("", "10 20 30", ""), (Colors{{255, 255, 255}, {10, 20, 30}, {255, 255, 255}}));
+    EXPECT_EQ(obj_colors("", "", "0 0.2 1"), (Colors{{255, 255, 255}, {255, 255, 255}, {0, 51, 255}}));
+    EXPECT_EQ(obj_colors("1", "2", "0 0 0"), (Colors{{255, 255, 255}, {255, 255, 255}, {0, 0, 0}})) << "weights";
+    EXPECT_TRUE(obj_colors("", "2", "").empty());
+    EXPECT_TRUE(parse("mtllib red.mtl\nusemtl red\nv 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n", "m.obj").colors.empty());
+}
+
+TEST(ObjFile, WeightsDivideTheCoordinates)
+{
+    const TriangleMesh mesh = parse("v 0 0 0 1 0 0\nv 4 0 0 2\nv 0 6 0 0.5\nf 1 2 3\n", "m.obj");
+    EXPECT_NEAR(surface_area(mesh), 0.5 * 2.0 * 12.0, 1e-5);
+    EXPECT_NE(refusal("v 0 0 0\nv 4 0 0 0\nv 0 6 0\nf 1 2 3\n", "m.obj").find("vertex 1 is not finite"),
+              std::string::npos);
+}
+
+TEST(ObjFile, BrokenColorsAreRefused)
+{
+    const auto with = [](const std::string& numbers) {
+        return refusal("v 0 0 0 1 0 0\nv 1 0 0 " + numbers + "\nv 0 1 0\nf 1 2 3\n", "m.obj");
+    };
+    EXPECT_EQ(with("1 1 1"), "");
+    for (const char* color : {"nan 0 0", "0 inf 0", "0 0 -inf", "0 0 1e999", "red 0 0", "0 0 1f", "0,1 0 0"}) {
+        EXPECT_EQ(with(color), "m.obj:2: a color is not a finite number") << color;
+    }
+    EXPECT_EQ(with("1 1"), "m.obj:2: a vertex has two numbers behind its coordinates, where a color has three");
+}
+
 // --- glTF ----------------------------------------------------------------------------------------
 
 TEST(GltfFile, TransformsOfNodesAreAppliedAndInstancesCounted)
@@ -480,6 +555,179 @@ TEST(GltfFile, OtherVersionsCompressionAndSparseDataAreRefused)
     EXPECT_NE(with("{\"nodes\": [0]}", "{\"nodes\": []}"), "");
     EXPECT_NE(with("{\"nodes\": [0]}", "{\"nodes\": [0, 0]}"), "");
     EXPECT_NE(with("\"scene\": 0", "\"scene\": 3"), "");
+}
+
+/// A triangle in a GLB file. colors: the bytes that "COLOR_0" stands for; color_accessor and color_view: the members of
+/// its accessor and of its view, without what every one has.
+std::string glb_with_colors(const std::string& colors, const std::string& color_accessor,
+                            const std::string& color_view = "")
+{
+    std::string buffer;
+    for (const glm::vec3& corner : {glm::vec3(0, 0, 0), glm::vec3(1, 0, 0), glm::vec3(0, 1, 0)}) {
+        test::append_vector(buffer, corner);
+    }
+    return test::glb(fmt::format(R"({{"asset": {{"version": "2.0"}}, "nodes": [{{"mesh": 0}}],
+"meshes": [{{"primitives": [{{"attributes": {{"POSITION": 0, "COLOR_0": 1}}, "material": 0}}]}}],
+"materials": [{{"pbrMetallicRoughness": {{"baseColorFactor": [1, 0, 0, 1]}}}}],
+"buffers": [{{"byteLength": {}}}],
+"bufferViews": [{{"buffer": 0, "byteLength": 36}}, {{"buffer": 0, "byteOffset": 36, "byteLength": {}{}}}],
+"accessors": [{{"bufferView": 0, "componentType": 5126, "count": 3, "type": "VEC3"}}, {{"bufferView": 1, {}}}]}})",
+                                 36 + colors.size(), colors.size(), color_view, color_accessor),
+                     buffer + colors);
+}
+
+std::string accessor_of(int component_type, const std::string& type, int count = 3)
+{
+    return fmt::format(R"("componentType": {}, "type": "{}", "count": {}, "normalized": true)", component_type, type,
+                       count);
+}
+
+template <class T>
+std::string bytes_of(std::initializer_list<T> values)
+{
+    std::string bytes;
+    for (const T value : values) {
+        test::append_bytes(bytes, value);
+    }
+    return bytes;
+}
+
+TEST(GltfFile, ColorsOfEveryTypeAreLinear)
+{
+    // sRGB 188 has half of white's light, 13 a 255th; 0.2159 is that of 128 (IEC 61966-2-1).
+    const Colors expected{{255, 0, 188}, {128, 255, 0}, {13, 0, 255}};
+    const float nothing = -7.0f; // an alpha
+    EXPECT_EQ(parse(glb_with_colors(bytes_of({1.0f, 0.0f, 0.5f, 0.2159f, 1.0f, 0.0f, 1.0f / 255.0f, 0.0f, 1.0f}),
+                                    accessor_of(5126, "VEC3")),
+                    "m.glb")
+                  .colors,
+              expected);
+    EXPECT_EQ(parse(glb_with_colors(bytes_of({1.0f, 0.0f, 0.5f, nothing, 0.2159f, 9.0f, -1.0f, nothing, 1.0f / 255.0f,
+                                              0.0f, 1.1f, nothing}),
+                                    accessor_of(5126, "VEC4")),
+                    "m.glb")
+                  .colors,
+              expected)
+        << "kept in range";
+    EXPECT_EQ(
+        parse(glb_with_colors(bytes_of<std::uint8_t>({255, 0, 128, 55, 255, 0, 1, 0, 255}), accessor_of(5121, "VEC3")),
+              "m.glb")
+            .colors,
+        expected);
+    EXPECT_EQ(parse(glb_with_colors(bytes_of<std::uint8_t>({255, 0, 128, 0, 55, 255, 0, 1, 1, 0, 255, 2}),
+                                    accessor_of(5121, "VEC4")),
+                    "m.glb")
+                  .colors,
+              expected);
+    EXPECT_EQ(parse(glb_with_colors(bytes_of<std::uint16_t>({65535, 0, 32768, 14149, 65535, 0, 257, 0, 65535}),
+                                    accessor_of(5123, "VEC3")),
+                    "m.glb")
+                  .colors,
+              expected);
+    EXPECT_EQ(parse(glb_with_colors(bytes_of<std::uint16_t>({65535, 0, 32768, 0, 14149, 65535, 0, 1, 257, 0, 65535, 2}),
+                                    accessor_of(5123, "VEC4")),
+                    "m.glb")
+                  .colors,
+              expected);
+}
+
+TEST(GltfFile, ColorsLieWhereTheirViewSays)
+{
+    const std::string colors =
+        bytes_of<std::uint8_t>({99, 99, 255, 0, 0, 99, 99, 99, 0, 255, 0, 99, 99, 99, 0, 0, 255});
+    const Colors expected{{255, 0, 0}, {0, 255, 0}, {0, 0, 255}};
+    const std::string accessor = accessor_of(5121, "VEC3") + R"(, "byteOffset": 2)";
+    EXPECT_EQ(parse(glb_with_colors(colors, accessor, R"(, "byteStride": 6)"), "m.glb").colors, expected);
+    for (const std::string& bad : {glb_with_colors(colors.substr(1), accessor, R"(, "byteStride": 6)"),
+                                   glb_with_colors(colors, accessor, R"(, "byteStride": 7)"),
+                                   glb_with_colors(colors, accessor, R"(, "byteStride": 2)")}) {
+        EXPECT_EQ(refusal(bad, "m.glb"), "m.glb: accessor 1 of the glTF file reaches beyond its buffer");
+    }
+}
+
+TEST(GltfFile, BrokenColorsAreRefused)
+{
+    const std::string floats(48, '\0');
+    EXPECT_EQ(refusal(glb_with_colors(floats, accessor_of(5126, "VEC4")), "m.glb"), "");
+    for (const auto& [type, component] : std::vector<std::pair<std::string, int>>{
+             {"VEC2", 5126}, {"SCALAR", 5126}, {"MAT2", 5126}, {"VEC3", 5120}, {"VEC4", 5125}, {"VEC4", 0}}) {
+        EXPECT_EQ(refusal(glb_with_colors(floats, accessor_of(component, type)), "m.glb"),
+                  "m.glb: \"COLOR_0\" of the glTF file has a type that is not supported");
+    }
+    for (const int count : {2, 4}) {
+        EXPECT_EQ(refusal(glb_with_colors(floats, accessor_of(5126, "VEC3", count)), "m.glb"),
+                  "m.glb: a mesh of the glTF file has not as many colors as vertices");
+    }
+    EXPECT_NE(refusal(glb_with_colors(floats, accessor_of(5126, "VEC3") + R"(, "sparse": {})"), "m.glb").find("sparse"),
+              std::string::npos);
+    const auto with_reference = [&floats](const std::string& number) {
+        std::string text = glb_with_colors(floats, accessor_of(5126, "VEC3"));
+        text.replace(text.find("\"COLOR_0\": 1") + 11, 1, number);
+        return refusal(text, "m.glb");
+    };
+    EXPECT_EQ(with_reference("9"), "m.glb: \"COLOR_0\" of the glTF file is 9, but there are only 2");
+    for (const float bad : {std::numeric_limits<float>::quiet_NaN(), std::numeric_limits<float>::infinity(),
+                            -std::numeric_limits<float>::infinity()}) {
+        EXPECT_EQ(refusal(glb_with_colors(bytes_of({0.0f, 0.0f, 0.0f, 1.0f, bad, 0.0f, 0.0f, 0.0f, 0.0f}),
+                                          accessor_of(5126, "VEC3")),
+                          "m.glb"),
+                  "m.glb: color 1 of accessor 1 of the glTF file is not finite");
+    }
+    const float nan = std::numeric_limits<float>::quiet_NaN();
+    EXPECT_EQ(refusal(glb_with_colors(bytes_of({0.0f, 0.0f, 0.0f, nan, 1.0f, 1.0f, 1.0f, nan, 0.0f, 0.0f, 0.0f, nan}),
+                                      accessor_of(5126, "VEC4")),
+                      "m.glb"),
+              "")
+        << "an alpha says nothing";
+}
+
+TEST(GltfFile, ColorsDoNotOutgrowTheFile)
+{
+    // Meshes of no node, each with an accessor of its own to the same colors.
+    const TriangleMesh mesh = colored("torus");
+    const auto with_meshes = [&mesh](std::size_t count) {
+        std::string text = test::glb_of(mesh);
+        std::string json = text.substr(20, text.find("BIN") - 24);
+        const std::string accessor =
+            json.substr(json.rfind("{\"bufferView\""), json.rfind("]") - json.rfind("{\"bufferView\""));
+        std::string accessors;
+        std::string meshes;
+        for (std::size_t i = 0; i < count; ++i) {
+            accessors += ", " + accessor;
+            meshes += fmt::format(
+                R"(, {{"primitives": [{{"attributes": {{"POSITION": 1, "COLOR_0": {}}}, "indices": 0}}]}})", i + 4);
+        }
+        json.insert(json.rfind("]"), accessors);
+        json.insert(json.find("],\n\"buffers\""), meshes);
+        return refusal(test::glb(json, test::gltf_buffer_of(mesh)), "m.glb");
+    };
+    EXPECT_EQ(with_meshes(3), "");
+    EXPECT_EQ(with_meshes(10'000), "m.glb: the accessors of colors in the glTF file overlap");
+}
+
+TEST(GltfFile, PartsWithoutColorsAreWhiteBesideOthers)
+{
+    // The torus twice, side by side: the second has no colors. Then both share one accessor of them.
+    const TriangleMesh mesh = colored("torus");
+    std::string text = test::gltf_of(mesh, R"({"mesh": 0}, {"mesh": 1, "translation": [9, 0, 0]})");
+    text.replace(text.find("\"nodes\": [0]"), 12, "\"nodes\": [0, 1]");
+    const std::size_t end = text.find("],\n\"buffers\"");
+    const auto with_second = [&](const std::string& attributes) {
+        std::string both = text;
+        both.insert(end, R"(, {"primitives": [{"attributes": {"POSITION": 1)" + attributes + R"(}, "indices": 0}]})");
+        return parse(both, "m.gltf");
+    };
+    const std::size_t half = mesh.positions.size();
+    const TriangleMesh white = with_second("");
+    ASSERT_EQ(white.colors.size(), 2 * half);
+    EXPECT_EQ(white.colors.at(half - 1), mesh.colors.at(half - 1));
+    for (std::size_t i = half; i < 2 * half; ++i) {
+        ASSERT_EQ(white.colors[i], glm::u8vec3(255));
+    }
+    const TriangleMesh same = with_second(R"(, "COLOR_0": 3)");
+    ASSERT_EQ(same.colors.size(), 2 * half);
+    EXPECT_TRUE(std::equal(same.colors.begin(), same.colors.begin() + static_cast<std::ptrdiff_t>(half),
+                           same.colors.begin() + static_cast<std::ptrdiff_t>(half)));
 }
 
 TEST(GltfFile, StripsAndFans)

@@ -3,6 +3,8 @@
 
 #include <cmath>
 #include <fstream>
+#include <functional>
+#include <map>
 
 #include <gtest/gtest.h>
 
@@ -65,30 +67,53 @@ TEST(ColorStrength, OfAScenesSolidsIsThatOfTheirFiles)
 {
     const test::ScratchFolder folder;
     TriangleMesh box = test::black_and_white_box({1.0f, 0.5f, 0.8f});
-    const std::string file = (folder / "rock.ply").string();
-    std::ofstream(file) << test::ascii_ply_of(box);
-    const Scene scene = scene_of(file);
-    const auto rock = rock_of(scene);
-    ASSERT_EQ(rock.size(), 20u * 10u * 16u);
-    for (const auto& [x, strength] : rock) {
-        if (std::abs(x) > 0.1f && std::abs(x) < 0.25f) { // deeper inside, the nearest surface may be an end
-            EXPECT_FLOAT_EQ(strength, x < 0.0f ? 1.0f / 3.0f : 3.0f);
+    const std::map<std::string, std::function<std::string()>> files{
+        {"rock.ply",
+         [&] {
+             return test::ascii_ply_of(box);
+         }},
+        {"rock.obj",
+         [&] {
+             return test::obj_of(box);
+         }},
+        {"rock.gltf",
+         [&] {
+             return test::gltf_of(box);
+         }},
+        {"rock.glb",
+         [&] {
+             return test::glb_of(box);
+         }},
+    };
+    for (const auto& [name, content] : files) {
+        SCOPED_TRACE(name);
+        test::write_bytes(folder / name, content());
+        const auto rock = rock_of(scene_of((folder / name).string()));
+        ASSERT_EQ(rock.size(), 20u * 10u * 16u);
+        for (const auto& [x, strength] : rock) {
+            if (std::abs(x) > 0.1f && std::abs(x) < 0.25f) { // deeper inside, the nearest surface may be an end
+                EXPECT_FLOAT_EQ(strength, x < 0.0f ? 1.0f / 3.0f : 3.0f);
+            }
         }
+        EXPECT_TRUE(
+            std::ranges::all_of(rock, [](const auto& each) { return each.second >= 0.333f && each.second <= 3.0f; }));
     }
-    EXPECT_TRUE(
-        std::ranges::all_of(rock, [](const auto& each) { return each.second >= 0.333f && each.second <= 3.0f; }));
 
     box.colors.clear();
-    std::ofstream(file) << test::ascii_ply_of(box);
-    const ParticleSet particles = make_particles(scene, 100'000);
-    try {
-        static_cast<void>(hydraulic_settings(scene, particles));
-        ADD_FAILURE();
-    } catch (const Error& error) {
-        EXPECT_EQ(error.kind(), ErrorKind::Input);
-        EXPECT_EQ(std::string(error.what()),
-                  "test: solid.0.strength_from is \"color\", but " + file +
-                      " has none that are read: those of the vertices of a mesh (.ply), or of points (.ply, .xyz)");
+    for (const auto& [name, content] : files) {
+        const std::string file = (folder / name).string();
+        test::write_bytes(file, content());
+        const Scene scene = scene_of(file);
+        const ParticleSet particles = make_particles(scene, 100'000);
+        try {
+            static_cast<void>(hydraulic_settings(scene, particles));
+            ADD_FAILURE();
+        } catch (const Error& error) {
+            EXPECT_EQ(error.kind(), ErrorKind::Input);
+            EXPECT_EQ(std::string(error.what()), "test: solid.0.strength_from is \"color\", but " + file +
+                                                     " has none that are read: those of the vertices of a mesh (.obj, "
+                                                     ".ply, .gltf, .glb), or of points (.ply, .xyz)");
+        }
     }
 }
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <bit>
+#include <cmath>
 #include <cstdint>
 #include <string>
 #include <vector>
@@ -37,8 +38,14 @@ inline void append_vector(std::string& file, const glm::vec3& v, ByteOrder order
 inline std::string obj_of(const TriangleMesh& mesh)
 {
     std::string text;
-    for (const glm::vec3& p : mesh.positions) {
-        text += fmt::format("v {} {} {}\n", p.x, p.y, p.z);
+    for (std::size_t i = 0; i < mesh.positions.size(); ++i) {
+        const glm::vec3& p = mesh.positions[i];
+        text += fmt::format("v {} {} {}", p.x, p.y, p.z);
+        if (!mesh.colors.empty()) {
+            const glm::dvec3 c = glm::dvec3(mesh.colors[i]) / 255.0;
+            text += fmt::format(" {} {} {}", c.r, c.g, c.b);
+        }
+        text += "\n";
     }
     for (const glm::vec3& n : mesh.normals) {
         text += fmt::format("vn {} {} {}\n", n.x, n.y, n.z);
@@ -88,6 +95,9 @@ inline std::string binary_ply_of(const TriangleMesh& mesh, ByteOrder order)
         append_vector(file, mesh.positions[i], order);
         if (!mesh.normals.empty()) {
             append_vector(file, mesh.normals[i], order);
+        }
+        for (int channel = 0; !mesh.colors.empty() && channel < 3; ++channel) {
+            append_bytes(file, mesh.colors[i][channel]);
         }
     }
     for (const glm::uvec3& t : mesh.triangles) {
@@ -145,7 +155,18 @@ inline std::string off_of(const TriangleMesh& mesh)
     return text;
 }
 
-/// The buffer of a glTF file: indices, positions, normals.
+/// The light of a color (IEC 61966-2-1).
+inline glm::vec3 linear_of(const glm::u8vec3& srgb)
+{
+    glm::vec3 light;
+    for (int channel = 0; channel < 3; ++channel) {
+        const double c = srgb[channel] / 255.0;
+        light[channel] = static_cast<float>(c <= 0.04045 ? c / 12.92 : std::pow((c + 0.055) / 1.055, 2.4));
+    }
+    return light;
+}
+
+/// The buffer of a glTF file: indices, positions, normals, linear colors.
 inline std::string gltf_buffer_of(const TriangleMesh& mesh)
 {
     std::string buffer;
@@ -160,6 +181,9 @@ inline std::string gltf_buffer_of(const TriangleMesh& mesh)
     for (const glm::vec3& n : mesh.normals) {
         append_vector(buffer, n);
     }
+    for (const glm::u8vec3& c : mesh.colors) {
+        append_vector(buffer, linear_of(c));
+    }
     return buffer;
 }
 
@@ -169,23 +193,31 @@ inline std::string gltf_json_of(const TriangleMesh& mesh, const std::string& buf
 {
     const std::size_t index_bytes = mesh.triangles.size() * 12;
     const std::size_t vertex_bytes = mesh.positions.size() * 12;
-    const bool normals = !mesh.normals.empty();
     const std::string accessor = R"({{"bufferView": {}, "componentType": {}, "count": {}, "type": "{}"}})";
     std::string views = fmt::format(R"({{"buffer": 0, "byteLength": {}}}, )"
                                     R"({{"buffer": 0, "byteOffset": {}, "byteLength": {}}})",
                                     index_bytes, index_bytes, vertex_bytes);
     std::string accessors = fmt::format(fmt::runtime(accessor), 0, 5125, mesh.triangles.size() * 3, "SCALAR") + ", " +
                             fmt::format(fmt::runtime(accessor), 1, 5126, mesh.positions.size(), "VEC3");
-    if (normals) {
-        views += fmt::format(R"(, {{"buffer": 0, "byteOffset": {}, "byteLength": {}}})", index_bytes + vertex_bytes,
-                             vertex_bytes);
-        accessors += ", " + fmt::format(fmt::runtime(accessor), 2, 5126, mesh.positions.size(), "VEC3");
+    std::size_t vectors = 1; // a vertex
+    std::string attributes = R"("POSITION": 1)";
+    const auto add = [&](const char* attribute) {
+        views += fmt::format(R"(, {{"buffer": 0, "byteOffset": {}, "byteLength": {}}})",
+                             index_bytes + vectors * vertex_bytes, vertex_bytes);
+        ++vectors;
+        accessors += ", " + fmt::format(fmt::runtime(accessor), vectors, 5126, mesh.positions.size(), "VEC3");
+        attributes += fmt::format(R"(, "{}": {})", attribute, vectors);
+    };
+    if (!mesh.normals.empty()) {
+        add("NORMAL");
+    }
+    if (!mesh.colors.empty()) {
+        add("COLOR_0");
     }
     return fmt::format(R"({{"asset": {{"version": "2.0"}}, "scene": 0, "scenes": [{{"nodes": [0]}}], "nodes": [{}],
-"meshes": [{{"primitives": [{{"attributes": {{"POSITION": 1{}}}, "indices": 0, "material": 7}}]}}],
+"meshes": [{{"primitives": [{{"attributes": {{{}}}, "indices": 0, "material": 7}}]}}],
 "buffers": [{{{}"byteLength": {}}}], "bufferViews": [{}], "accessors": [{}]}})",
-                       nodes, normals ? R"(, "NORMAL": 2)" : "", buffer_uri,
-                       index_bytes + vertex_bytes * (normals ? 2 : 1), views, accessors);
+                       nodes, attributes, buffer_uri, index_bytes + vertex_bytes * vectors, views, accessors);
 }
 
 inline std::string base64_of(const std::string& bytes)
