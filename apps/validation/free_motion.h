@@ -21,6 +21,7 @@ struct Fall {
     double place = 0.0;                            ///< error of the center of mass, in parts of g t^2/2
     double speed = 0.0;                            ///< error of its velocity, in parts of g t
     double ahead = 0.0;                            ///< of its exact place, in the way of a step
+    double steps = 0.0;                            ///< number of them
     std::vector<std::pair<double, double>> height; ///< t in s, and the way fallen in m
 };
 [[nodiscard]] Fall measure_fall(const Host& host, const FreeMotion& motion);
