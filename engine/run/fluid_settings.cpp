@@ -27,8 +27,9 @@ namespace meltpoint {
 
 namespace {
 
-constexpr double longest_solved_step = 5e-3; // s: longer ones show, however slow the fluid is
-constexpr double sound_per_speed = 10.0;     // density error about 1 %
+// s: however slow the fluid is. In steps of 5 ms the density of water half a meter high is off by 0.1 % in the mean.
+constexpr double longest_solved_step = 4.5e-3;
+constexpr double sound_per_speed = 10.0; // density error about 1 %
 
 std::uint32_t solver_number(Solver solver)
 {

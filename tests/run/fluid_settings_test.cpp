@@ -198,7 +198,7 @@ TEST(FluidSettings, AutomaticStepsAreTheDevices)
         EXPECT_EQ(dfsph.adaptive_dt, 1u);
         EXPECT_NEAR(dfsph.cfl_length, 0.4 * spacing, 1e-6);
         EXPECT_EQ(dfsph.cfl_speed, 0.0f);
-        EXPECT_FLOAT_EQ(dfsph.longest_dt, std::min(5e-3f, 1.0f / frame_rate));
+        EXPECT_FLOAT_EQ(dfsph.longest_dt, std::min(4.5e-3f, 1.0f / frame_rate));
         EXPECT_TRUE(settings_of(scene).warnings.empty());
     }
     scene.time.frame_rate = 60.0f;
@@ -349,7 +349,7 @@ TEST(FluidSettings, WarnsOfAStepAboveABoundAndNamesIt)
     scene.time.dt = 0.01f;
     warnings = settings_of(scene).warnings;
     ASSERT_EQ(warnings.size(), 1u);
-    EXPECT_NE(warnings[0].find("above the CFL bound of 0.005 s (expected speed 4.75 m/s"), std::string::npos)
+    EXPECT_NE(warnings[0].find("above the CFL bound of 0.0045 s (expected speed 4.75 m/s"), std::string::npos)
         << warnings[0];
 
     scene.time.dt = 0.0005f;
@@ -511,10 +511,10 @@ TEST(FluidSettings, StepsOfDeepWaterAreShorter)
     scene.domain.periodic = {true, false, false};
     EXPECT_NEAR(longest(), 0.5 * 0.02 / std::sqrt(9.81 * 0.8), 1e-6);
     scene.domain.periodic = {false, true, false}; // it falls without end
-    EXPECT_FLOAT_EQ(longest(), 5e-3f);
+    EXPECT_FLOAT_EQ(longest(), 4.5e-3f);
     scene.domain.periodic = glm::bvec3(false);
     scene.fluids[0].shape = BlockShape{glm::vec3(0.0f), {0.2f, 0.4f, 0.2f}};
-    EXPECT_FLOAT_EQ(longest(), 5e-3f);
+    EXPECT_FLOAT_EQ(longest(), 4.5e-3f);
     SolidBody slab; // on 0.2 m of water, with its own 0.1 m if it were some, it weighs as much as 0.8 m
     slab.shape = BlockShape{{0.0f, 0.4f, 0.0f}, {0.2f, 0.6f, 0.2f}};
     slab.rest_density = 4000.0f;
@@ -522,7 +522,7 @@ TEST(FluidSettings, StepsOfDeepWaterAreShorter)
     scene.solids.push_back(slab);
     EXPECT_NEAR(longest(), 0.5 * 0.02 / std::sqrt(9.81 * 1.1), 1e-6);
     scene.solids[0].anchor = SolidAnchor::Ground;
-    EXPECT_FLOAT_EQ(longest(), 5e-3f);
+    EXPECT_FLOAT_EQ(longest(), 4.5e-3f);
 }
 
 } // namespace
