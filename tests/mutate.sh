@@ -1785,14 +1785,19 @@ mutation "solid splats: particle splats wait until surface splats are gone" \
     conformance_tests 'SolidSplatsTest.TheDeviceConformsToTheTwin'
 mutation "solid splats: nothing backs the edges of surface splats" \
     shaders/render/particle_splat.comp \
-    'edge_distance < NO_EDGE ? BACKING_RADIUS : 0.0' \
-    'edge_distance < NO_EDGE ? 0.0 : 0.0' \
+    'params.spacing ? BACKING_RADIUS : 0.0' \
+    'params.spacing ? 0.0 : 0.0' \
     image_tests '*SolidFramesTest.NoHoleShowsTheInside/vanish'
 mutation "solid splats: surface splats do not see that their hosts' neighbors go" \
     shaders/render/particle_splat.comp \
     'abs(part_left - 1.0) > UNCHANGED || here.fluid > 0.0 ? 1 : 0' \
     '0' \
     conformance_tests 'SolidSplatsTest.SurfaceSplatsDoNotStandOutOfWhatIsLeft'
+mutation "erosion: a front's looks do not know when it arrives" \
+    engine/sim/erosion.cpp \
+    'return static_cast<double>(*last) - time;' \
+    'return static_cast<double>(*last);' \
+    conformance_tests 'ErosionTest.LooksAreSoNearThatAFrontFreesAFiftiethAtATime'
 mutation "solid splats: they bend the wrong way across" \
     shaders/render/bend_splat.comp \
     'float uv = (turn_u.y' \

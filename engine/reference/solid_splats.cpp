@@ -244,7 +244,8 @@ SolidSplats solid_splats(const Settings& settings, const shared::SolidSplatParam
         const bool has_cover = cover != shared::NO_COVER;
         const double covered = has_cover ? found.kept[cover].cover : 0.0;
         const double backing = covered * (1.0 - eroded);
-        const bool at_edge = has_cover && sources.hosted[cover].edge_distance < shared::NO_EDGE;
+        const bool at_edge = has_cover && static_cast<double>(sources.hosted[cover].edge_distance) <
+                                              static_cast<double>(shared::BACKING_REACH) * spacing;
         const double depth = depth_below_surface(field.filling) - static_cast<double>(shared::PARTICLE_SPLAT_DEPTH) -
                              static_cast<double>(shared::COVERED_DEPTH) * covered -
                              static_cast<double>(shared::BACKING_DEPTH) * backing;

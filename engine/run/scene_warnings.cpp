@@ -244,8 +244,7 @@ std::optional<std::string> wet_sand(const Scene& scene)
     if (!has_sand(scene) || (scene.fluids.empty() && scene.emitters.empty() && !may_melt)) {
         return std::nullopt;
     }
-    return "sand (wind_erodes) that comes down or slides does not push fluid aside: where they meet, fluid is thrown "
-           "up";
+    return "sand (wind_erodes) that slides does not push fluid aside: what is in its way is thrown up";
 }
 
 std::optional<std::string> idle_anchor(const Scene& scene)

@@ -18,6 +18,7 @@ namespace meltpoint {
 namespace {
 
 constexpr double host_reach = 2.5;    // spacings, of a splat's hosts
+constexpr double support = 1.25;      // spacings: a splat farther from all particles lies on what is too thin for any
 constexpr double covered_depth = 2.0; // spacings: a splat covers the particles less deep below it,
 constexpr double covered_width = 1.0; // and as near to the line along its normal
 constexpr double least_width = 0.5;   // of their triangle: its height in spacings
@@ -158,13 +159,13 @@ std::vector<Edge> find_edges(const PointCloud& cloud, double reach)
     return edges;
 }
 
-/// None where there are no hosts below, or others above.
+/// None where there are no hosts near below, or others above.
 std::optional<shared::HostedSplat> host(const SolidParticles& solids, double spacing, const glm::dvec3& x,
                                         const glm::dvec3& normal, const Edge& edge)
 {
     const std::vector<Candidate> near = solids.around(x);
     const auto hosts = choose_hosts(solids, spacing, near);
-    if (!hosts || is_covered(solids, spacing, near, x, normal)) {
+    if (!hosts || near[0].distance2 > std::pow(support * spacing, 2) || is_covered(solids, spacing, near, x, normal)) {
         return std::nullopt;
     }
     const glm::dvec3 a = solids.position((*hosts)[0]);

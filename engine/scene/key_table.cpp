@@ -451,7 +451,7 @@ std::vector<SolidKey> make_solid_keys()
     const auto k = [](auto... arguments) { return key<SolidBody>(arguments...); };
     return joined(with_shape_keys<SolidBody>("what it is; each shape has keys of its own", {
         liquid_key<SolidBody>(ITSELF, "what it turns into: gives rest_density, viscosity, surface_tension and fluid_color the values of a liquid, unless they stand in the scene; custom: nothing"),
-        lattice_key<SolidBody>("how its particles lie: in rows, which leave a melting face a row at a time, or evenly without any, relaxed until the density varies by 1 %"),
+        lattice_key<SolidBody>("how its particles lie: in rows, which leave a melting face a row at a time, or evenly without any, relaxed until the density varies by 1 % (not in the plane, in a periodic domain, or of sand)"),
         k("rest_density", FIELD(rest_density), "kg/m^3", Range{1e-3, 1e5}, "density of the fluid"),
         k("solid_density", FIELD(solid_density), "kg/m^3", Range{1e-3, 1e5}, "density while it is solid, 0.75 to 1.25 times that of the fluid: what is freed takes on its fluid's volume within some hundred steps, what freezes or settles keeps it; ice has 917; auto: rest_density"),
         k("viscosity", FIELD(viscosity), "Pa s", Range{0, 1e4}, "dynamic, of the fluid; auto: physics.viscosity"),

@@ -1,5 +1,9 @@
 #include "sim/erosion.h"
 
+#include <cmath>
+#include <iterator>
+#include <limits>
+
 #include "gpu/transfer.h"
 #include "spirv/sim/count_dead.comp.h"
 #include "spirv/sim/front.comp.h"
@@ -16,6 +20,19 @@ Erosion::Erosion(const gpu::Context& context, std::span<const float> release_tim
       readback_(context, sizeof(shared::PoolChanges), gpu::MemoryUse::Readback, "pool changes")
 {
     gpu::upload<float>(context, release_time_, release_time);
+    std::ranges::copy_if(release_time, std::back_inserter(arrivals_), [](float time) { return std::isfinite(time); });
+    std::ranges::sort(arrivals_);
+}
+
+double Erosion::longest_look(double time) const
+{
+    const auto next = std::ranges::upper_bound(arrivals_, static_cast<float>(time));
+    if (next == arrivals_.end()) {
+        return std::numeric_limits<double>::infinity();
+    }
+    const auto share = static_cast<std::ptrdiff_t>(arrivals_.size() / 50);
+    const auto last = next + std::min(share, std::distance(next, arrivals_.end()) - 1);
+    return static_cast<double>(*last) - time;
 }
 
 void Erosion::record_look(gpu::Commands& commands, const gpu::Buffer& params, const ParticleBuffers& particles,

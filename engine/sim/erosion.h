@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cstdint>
 #include <span>
+#include <vector>
 
 #include "gpu/commands.h"
 #include "particle_buffers/particle_buffers.h"
@@ -15,9 +16,9 @@ namespace meltpoint::sim {
 /// particles; the simulation parts the pool anew after some were freed, have died or were called up.
 class Erosion {
 public:
-    /// Steps from one look at the solids to the next. Parting a pool takes as long as a step of a fluid a fifth of its
-    /// size (measured on a software device): so many keep that below a third of the whole, and none is freed long after
-    /// its time.
+    /// Most steps from one look at the solids to the next. Parting a pool takes as long as a step of a fluid a fifth of
+    /// its size (measured on a software device): so many keep that below a third of the whole, and none is freed long
+    /// after its time.
     [[nodiscard]] static std::uint32_t interval(std::uint32_t pool, std::uint32_t moving)
     {
         return std::clamp(pool / std::max(moving, 1u), 4u, 32u);
@@ -30,6 +31,9 @@ public:
     /// counts the dead, which lie among the moving ones yet.
     void record_look(gpu::Commands& commands, const gpu::Buffer& params, const ParticleBuffers& particles,
                      float time) const;
+    /// s from a look at `time` to the next, in which fronts reach a fiftieth of all that they ever reach: of more, what
+    /// is freed at a look would be a slab. Infinite after the last of them.
+    [[nodiscard]] double longest_look(double time) const;
     /// After all of the look's passes: brings what they have found to the host.
     void record_readback(gpu::Commands& commands) const;
     /// What the last look has found: after its commands are done.
@@ -46,8 +50,9 @@ private:
     gpu::Kernel front_;
     gpu::Kernel count_dead_;
     gpu::Buffer release_time_;
-    gpu::Buffer changes_;  ///< shared::PoolChanges
-    gpu::Buffer readback_; ///< the same
+    std::vector<float> arrivals_; ///< s, of those that a front reaches, the first first
+    gpu::Buffer changes_;         ///< shared::PoolChanges
+    gpu::Buffer readback_;        ///< the same
 };
 
 } // namespace meltpoint::sim

@@ -195,7 +195,7 @@ std::uint32_t Simulation::steps_until_erosion() const
 std::uint32_t Simulation::look_interval() const
 {
     const std::uint32_t interval = Erosion::interval(params_.pool_count, params_.moving_count);
-    double longest = std::numeric_limits<double>::infinity();
+    double longest = erosion_->longest_look(looked_at_);
     longest = melting_ ? std::min(longest, melting_->longest_look()) : longest;
     longest = hydraulic_ ? std::min(longest, hydraulic_->longest_look()) : longest;
     longest = wind_ ? std::min(longest, wind_->longest_look()) : longest;

@@ -64,7 +64,7 @@ void main()
     float backing_radius = 0.0;
     if (cover[slot] != NO_COVER) {
         covered = hosted[cover[slot]].cover;
-        backing_radius = hosted[cover[slot]].edge_distance < NO_EDGE ? BACKING_RADIUS : 0.0;
+        backing_radius = hosted[cover[slot]].edge_distance < BACKING_REACH * params.spacing ? BACKING_RADIUS : 0.0;
     }
     float backing = covered * (1.0 - eroded);
     float sunk = PARTICLE_SPLAT_DEPTH + COVERED_DEPTH * covered + BACKING_DEPTH * backing;

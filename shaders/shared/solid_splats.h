@@ -44,6 +44,7 @@ SHARED_CONSTANT float PARTICLE_SPLAT_DEPTH = 0.25f;   // spacings below the surf
 SHARED_CONSTANT float COVERED_DEPTH = 0.35f;         // spacings farther below, where a surface splat covers them whole
 SHARED_CONSTANT float BACKING_DEPTH = 0.4f;          // and so much more where nothing has gone nearby yet: there they
 SHARED_CONSTANT float BACKING_RADIUS = 0.75f;        // only stop gaps between surface splats at edges
+SHARED_CONSTANT float BACKING_REACH = 0.75f;         // spacings from the surface splat above them to its edge
 SHARED_CONSTANT float NO_EDGE = 1e9f;
 SHARED_CONSTANT float UNCHANGED = 1e-3f;             // part of c that rounding may lose
 SHARED_CONSTANT float ERODED_FROM = 0.02f;           // lost part of c from which up to which they come

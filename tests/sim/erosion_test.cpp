@@ -97,6 +97,21 @@ TEST_F(ErosionTest, AFrontFreesWhatItHasReachedAndNothingIsLost)
     }
 }
 
+// However long steps are: of a front that crosses a solid between two looks, all would be freed at once.
+TEST_F(ErosionTest, LooksAreSoNearThatAFrontFreesAFiftiethAtATime)
+{
+    std::vector<float> arrivals;
+    for (int i = 100; i > 0; --i) { // 1 s to 100 s, the last first
+        arrivals.push_back(static_cast<float>(i));
+        arrivals.push_back(std::numeric_limits<float>::infinity());
+    }
+    const sim::Erosion erosion(context(), arrivals);
+    EXPECT_EQ(erosion.longest_look(0.0), 3.0);
+    EXPECT_EQ(erosion.longest_look(50.5), 2.5);
+    EXPECT_EQ(erosion.longest_look(99.0), 1.0);
+    EXPECT_EQ(erosion.longest_look(100.0), std::numeric_limits<double>::infinity());
+}
+
 TEST_F(ErosionTest, WhatIsFreedMovesAsFluidDoes)
 {
     for (const std::uint32_t solver : {shared::SOLVER_WCSPH, shared::SOLVER_DFSPH, shared::SOLVER_PBF}) {
