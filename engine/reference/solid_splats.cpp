@@ -178,13 +178,14 @@ Disc hosted_disc(const shared::HostedSplat& splat, double spacing, const State& 
     kept.cover = kept.gone ? 0.0 : 1.0 - sinking;
     const glm::dvec3 up = -field.gradient / std::max(glm::length(field.gradient), 1e-6);
     const double area = -2.0 * spacing * glm::dot(field.gradient, normal); // A / d^2, seen along its normal
-    const double turning = sinking * smooth_ramp(0.0f, shared::EXPOSED_FROM, area);
+    const double facing = smooth_ramp(0.0f, shared::EXPOSED_FROM, area);
+    const double turning = sinking * facing;
     const double rise =
         depth_below_surface(field.filling) - static_cast<double>(shared::PARTICLE_SPLAT_DEPTH + shared::SINKING_DEPTH);
+    const double part_left = // all of it where there is something to sink to
+        (1.0 - smooth_ramp(shared::SHRINKING_FROM, 1.0f, worst)) * (1.0 - bare * (1.0 - facing));
     return {.center = center + turning * std::clamp(rise, -1.0, 1.0) * spacing * up,
-            .radius = kept.gone ? 0.0
-                                : static_cast<double>(splat.radius) *
-                                      (1.0 - smooth_ramp(shared::SHRINKING_FROM, 1.0f, worst)),
+            .radius = kept.gone ? 0.0 : static_cast<double>(splat.radius) * part_left,
             .normal = glm::normalize(glm::mix(normal, up, turning)),
             .color = glm::dvec3(splat.color) * (1.0 + kept.wet * (static_cast<double>(splat.wet_albedo) - 1.0)),
             .bend = frame * glm::dvec3(splat.edge),

@@ -47,15 +47,17 @@ void main()
         here = solid_field(center);
     }
     float start = splat.filling == 0.0 ? max(here.filling, 1e-6) : splat.filling;
-    float sinking = max(smooth_ramp(SINKING_FROM, SINKING_UNTIL, worst_progress),
-                        1.0 - smooth_ramp(BARE_FULLY, BARE_FROM, here.filling / start));
+    float bare = 1.0 - smooth_ramp(BARE_FULLY, BARE_FROM, here.filling / start);
+    float sinking = max(smooth_ramp(SINKING_FROM, SINKING_UNTIL, worst_progress), bare);
     vec3 up = -here.gradient / max(length(here.gradient), 1e-6);
-    float turning = sinking * smooth_ramp(0.0, EXPOSED_FROM, -2.0 * params.spacing * dot(here.gradient, normal));
+    float facing = smooth_ramp(0.0, EXPOSED_FROM, -2.0 * params.spacing * dot(here.gradient, normal));
+    float turning = sinking * facing;
     float rise = depth_below_surface(here.filling) - PARTICLE_SPLAT_DEPTH - SINKING_DEPTH;
     center += turning * clamp(rise, -1.0, 1.0) * params.spacing * up;
     normal = normalize(mix(normal, up, turning));
 
-    float radius = splat.radius * (1.0 - smooth_ramp(SHRINKING_FROM, 1.0, worst_progress));
+    float radius = splat.radius * (1.0 - smooth_ramp(SHRINKING_FROM, 1.0, worst_progress)) *
+                   (1.0 - bare * (1.0 - facing)); // nothing to sink to
     float stretch = max(max(length(first), length(second)), length(second - first));
     if (worst_progress >= 1.0 || stretch > MOST_STRETCH * splat.span) {
         hosted[i].radius = radius = 0.0;

@@ -11,13 +11,14 @@
 // surface. Its normals bend as those of the discs around it do (Phong splats, Botsch, Spernat & Kobbelt 2004). It comes and goes
 // with the particle's exposed area, A / d^2 = 2 d |grad c|, and goes with the particle.
 //
-// Surface splats lie on the solid's own shape, whose edges are sharp, a little outside of the particles' ones. Each belongs to the
-// three solid particles below it: it moves and turns with them, recedes by their mean progress, and is gone with the first of them, or
-// when they part, as those of sand that slides.
-// At a sharp edge its disc is cut off, where the next face is, which recedes as well. Below it, particle splats keep out of its
-// way, for the steps of a lattice are not the shape that it fills; before something has gone nearby they only stop gaps at edges. When the first
-// of its hosts is about to go, or what is left has drawn back from where it lies, it sinks to the surface where c = 1/2 and turns
-// as that does, and the particle splats come up over it: nobody sees it shrink. Whose host was ever freed is gone for good.
+// Surface splats lie on the solid's own shape, whose edges are sharp, a little outside of the particles' ones. Each belongs to
+// the three solid particles below it: it moves and turns with them, recedes by their mean progress, and is gone with the first of
+// them, or when they part, as those of sand that slides. At a sharp edge its disc is cut off, where the next face is, which
+// recedes as well. Below it, particle splats keep out of its way, for the steps of a lattice are not the shape that it fills;
+// before something has gone nearby they only stop gaps at edges. When the first of its hosts is about to go, or what is left has
+// drawn back from where it lies, it sinks to the surface where c = 1/2 and turns as that does, and the particle splats come up
+// over it: nobody sees it shrink. Only where that surface lies across it, it does so at once. Whose host was ever freed is gone
+// for good.
 //
 // What is too thin for a surface (a chain, a lone particle) is drawn as balls. What melts or is washed away grows into its ball
 // while it takes on the color of its fluid; what a front frees does before, inside of the solid.
