@@ -76,7 +76,7 @@ TEST_F(ErosionTest, AFrontFreesWhatItHasReachedAndNothingIsLost)
         sim::Simulation simulation(context(), start, its);
         reference::State twin = reference::from_particle_set(start);
         std::size_t freed = 0;
-        for (int look = 0; look < 10; ++look) {
+        for (int look = 0; look < 40; ++look) {
             freed += reference::release(twin, start.release_time, simulation.time());
             simulation.advance(1); // looks, then steps
             simulation.advance(simulation.steps_until_erosion());
